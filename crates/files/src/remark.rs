@@ -354,9 +354,9 @@ remarks! {
         "What was found may make up for what the column tells, such as a supply or a pressure; measurements of other parts that the answer advises may be in vain.",
         "Write what the column does to the rate as a mechanism of your own, whose file names it in `columns`, and diagnose again with --mechanism; or keep constant what the column tells.";
     WeighedColumn "weighed-column":
-        "The records hold columns of numbers that the model does not use; that the rate follows one of them is weighed as a mechanism.",
+        "The records hold columns of numbers that the model does not use; that the rate follows one of them is weighed as a mechanism. A column that moves with the rate from row to row is left out: it seems to be made from the rate.",
         "Nothing, unless the answer names one: what such a column tells acts on the rate, or goes along with what does.",
-        "None, unless the answer names one. A mechanism's file of your own (--mechanism) takes its column's place, with its own law.";
+        "None, unless the answer names one. A mechanism's file of your own (--mechanism) takes its column's place, with its own law; it is the way to have a column weighed that was left out, if it is a cause of the rate.";
     CopiedRecording "copied-recording":
         "Two units of a batch have a recording in common, byte for byte.",
         "One of them was not recorded, or its file is lost; its verdict is the other's.",

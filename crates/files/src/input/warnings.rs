@@ -13,8 +13,8 @@ const AXIAL_ROOM: f64 = 0.1;
 
 /// Largest relative distance of neighbouring turns' spacing from the pitch that passes without a word: the film of adhesive between two fibres.
 const SAME_SPACING: f64 = 0.03;
-/// Part of a pitch by which turns may stand out of the coil without a word: the rounding of a drawing.
-const OUTSIDE: f64 = 0.01;
+/// Part of a pitch by which turns may stand out of the coil without a word: twice the largest tolerance of a winding's end, where a fit of a record may put it.
+const OUTSIDE: f64 = 0.25;
 /// Largest relative distance of the effective diameter from the coil's mean diameter that passes without a word.
 const SAME_DIAMETER: f64 = 0.02;
 

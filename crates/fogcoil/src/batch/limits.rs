@@ -162,6 +162,16 @@ impl Limit {
     }
 }
 
+/// A verdict that keeps the limits, and another that is likelier.
+fn not_sure(verdict: &str, (rival, probability): &(String, f64), row: &Row) -> Kept {
+    let own = row.number("verdict_probability").map_or(String::new(), |own| format!(" ({own:.2})"));
+    let likelier = match rival.as_str() {
+        "explained" => format!("that one of the mechanisms acts ({probability:.2} together: {})", row.open()),
+        rival => format!("{rival} ({probability:.2})"),
+    };
+    Kept::NotKnown(format!("the verdict {verdict}{own} is less likely than {likelier}"))
+}
+
 impl Limits {
     /// Both ends of the limit of a number, if it has one.
     pub(super) fn ends(&self, number: &str) -> Option<[f64; 2]> {
@@ -174,10 +184,7 @@ impl Limits {
             return Judged::NotKnown(vec![problem.clone()]);
         }
         let verdict = (!self.verdicts.is_empty()).then(|| match &row.verdict {
-            Some(verdict) if self.verdicts.contains(verdict) && row.rivalled => {
-                Kept::NotKnown(format!("the verdict {verdict} is less likely than another: {}", row.open()))
-            }
-            Some(verdict) if self.verdicts.contains(verdict) => Kept::Yes,
+            Some(verdict) if self.verdicts.contains(verdict) => row.rival.as_ref().map_or(Kept::Yes, |rival| not_sure(verdict, rival, row)),
             Some(verdict) if verdict == "explained" => {
                 let drawing = row.drawing.as_ref().map_or(String::new(), |word| format!("{word} in place of the drawing's, or "));
                 Kept::No(format!("an effect was found: {drawing}{}", row.open()))

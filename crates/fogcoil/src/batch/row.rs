@@ -71,8 +71,10 @@ pub struct Row {
     pub constants: Vec<Constant>,
     /// Reason why there is no diagnosis.
     pub problem: Option<String>,
-    /// Whether another verdict is likelier: no other explanation was strong enough to be named.
-    pub rivalled: bool,
+    /// Another verdict that is likelier, and its probability: no other explanation was strong enough to be named.
+    pub rival: Option<(String, f64)>,
+    /// The likeliest mechanisms and their probabilities, best first: those at least half as likely as the first.
+    likeliest: Vec<(String, f64)>,
     /// Figures that were not measured, and why.
     missing: Vec<(String, String)>,
     /// Whether the bias instability is an upper bound, as the temperature changed.
@@ -108,7 +110,8 @@ impl Row {
             files: texts(&finding["files"]),
             hashes: texts(&finding["sha256"]),
             verdict: text(&diagnosis["verdict"]),
-            rivalled: is_rivalled(diagnosis),
+            rival: rival(diagnosis),
+            likeliest: likeliest(diagnosis),
             set: texts(&diagnosis["set"]),
             together: probable(diagnosis),
             warnings: warnings(diagnosis),
@@ -150,13 +153,14 @@ impl Row {
     }
 
     /// Explanations that the records do not exclude, best first, in words; of a verdict that has a likelier rival, or one half as likely, the likeliest
-    /// mechanism; of what has no name, its shape.
+    /// mechanisms; of what has no name, its shape.
     pub(super) fn open(&self) -> String {
         if let Some(shape) = &self.shape {
             return shape.clone();
         }
-        if let Some((first, probability)) = self.first.as_ref().zip(self.number("first_probability")).filter(|_| self.is_open()) {
-            return format!("{first} ({probability:.2})");
+        if self.is_open() && !self.likeliest.is_empty() {
+            let told = self.likeliest.iter().map(|(id, probability)| format!("{id} ({probability:.2})"));
+            return told.collect::<Vec<_>>().join(" or ");
         }
         let others = self.set.iter().filter(|id| !self.together.contains(id)).cloned();
         let together: Vec<String> = self.set.iter().filter(|id| self.together.contains(id)).cloned().collect();
@@ -165,7 +169,7 @@ impl Row {
 
     /// Whether the verdict says nothing of mechanisms although something else is likelier, or one of them half as likely.
     fn is_open(&self) -> bool {
-        (self.rivalled || self.is_pressed()) && self.set.is_empty()
+        (self.rival.is_some() || self.is_pressed()) && self.set.is_empty()
     }
 
     /// Whether a mechanism is at least half as likely as that the design suffices, where that is the verdict.
@@ -225,14 +229,24 @@ fn shape(diagnosis: &Value) -> Option<String> {
     law.or_else(|| diagnosis["structure"].as_str().map(str::to_owned))
 }
 
-/// Whether another verdict is likelier than a diagnosis' own.
-fn is_rivalled(diagnosis: &Value) -> bool {
+/// The verdict that is likelier than a diagnosis' own, if there is one.
+fn rival(diagnosis: &Value) -> Option<(String, f64)> {
     let own = diagnosis["verdict"].as_str().unwrap_or_default();
     let is_design = |verdict: &str| ["none", "recalibrate"].contains(&verdict);
-    let others = diagnosis["verdicts"].as_object().into_iter().flatten();
+    let others = diagnosis["verdicts"].as_object()?.iter();
     let others = others.filter(|(verdict, _)| *verdict != own && !(is_design(verdict) && is_design(own)));
-    let most = others.filter_map(|(_, p)| p.as_f64()).fold(0.0, f64::max);
-    of_verdict(diagnosis).is_some_and(|p| p < most)
+    let others = others.filter_map(|(verdict, p)| Some((verdict.clone(), p.as_f64()?)));
+    let most = others.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    of_verdict(diagnosis).is_some_and(|p| p < most.1).then_some(most)
+}
+
+/// Mechanisms at least half as likely as the first.
+fn likeliest(diagnosis: &Value) -> Vec<(String, f64)> {
+    const MOST: usize = 3;
+    let all = diagnosis["mechanisms"].as_array().into_iter().flatten();
+    let all: Vec<_> = all.filter_map(|one| Some((one["id"].as_str()?.to_owned(), one["probability"].as_f64()?))).collect();
+    let first = all.first().map_or(0.0, |(_, first)| *first);
+    all.into_iter().take_while(|(_, p)| 2.0 * p >= first).take(MOST).collect()
 }
 
 /// Unit of a number of the table.
@@ -352,18 +366,21 @@ mod tests {
     fn a_verdict_less_likely_than_another_is_open() {
         let of = |recalibrate: f64, explained: f64, set: &[&str]| {
             let verdicts = json!({"none": 0.03, "recalibrate": recalibrate, "explained": explained, "unknown": 0.0});
-            let mechanisms = json!([{"id": "sensor-lag", "probability": 0.46}]);
+            let others = [("air-path", 0.3), ("debond", 0.1)].map(|(id, p)| json!({"id": id, "probability": p}));
+            let [second, third] = others;
+            let mechanisms = json!([{"id": "sensor-lag", "probability": 0.46}, second, third]);
             Row::of(&json!({"unit": "U", "diagnosis":
                 {"verdict": "recalibrate", "verdicts": verdicts, "mechanisms": mechanisms, "set": set}}))
         };
         let open = of(0.39, 0.57, &[]);
-        assert!(open.rivalled);
-        assert_eq!(open.open(), "sensor-lag (0.46)");
+        assert_eq!(open.rival, Some(("explained".to_owned(), 0.57)));
+        // those at least half as likely as the first
+        assert_eq!(open.open(), "sensor-lag (0.46) or air-path (0.30)");
         // none and recalibrate are one: the design suffices
         let pressed = of(0.47, 0.49, &[]);
-        assert!(!pressed.rivalled && pressed.is_pressed() && pressed.open() == "sensor-lag (0.46)");
+        assert!(pressed.rival.is_none() && pressed.is_pressed() && pressed.open() == "sensor-lag (0.46) or air-path (0.30)");
         let closed = of(0.93, 0.04, &[]);
-        assert!(!closed.rivalled && !closed.is_pressed() && closed.open().is_empty());
+        assert!(closed.rival.is_none() && !closed.is_pressed() && closed.open().is_empty());
         assert_eq!(of(0.39, 0.57, &["sensor-lag"]).open(), "sensor-lag");
     }
 

@@ -127,7 +127,7 @@ pub fn diagnose<'m>(
         .collect();
     let unread: BTreeSet<&str> = columns.iter().flat_map(|own| own.mechanism.columns()).collect();
     read.iter_mut().for_each(|record| record.read_columns(&unread));
-    notes.extend(weighed::note(&columns).map(|note| note.at(&case.file)));
+    notes.extend(weighed::note(&columns, &fits, holdouts).map(|note| note.at(&case.file)));
     let of_columns: BTreeSet<String> = columns.iter().map(|own| own.mechanism.id.clone()).collect();
     let asked = mechanisms;
     let mechanisms: Vec<&'m dyn Mechanism> =

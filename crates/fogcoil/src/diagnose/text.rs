@@ -20,6 +20,9 @@ const LIKELY: f64 = 0.65;
 /// Standard deviations from which a constant that moved is worth a word beside a mechanism that would do the same.
 const MUCH: f64 = 2.0;
 
+/// Constants that are told where none moved far.
+const MOST: usize = 3;
+
 impl Outcome<'_> {
     /// For people: verdict, place, alternatives, parameters, held-out errors.
     pub fn text(&self) -> String {
@@ -121,13 +124,19 @@ impl Outcome<'_> {
     /// The constants that moved, below their head: value, standard deviations of what was known, 90 % interval. None where nothing explains the records.
     pub(super) fn moved_rows(&self) -> Vec<Vec<String>> {
         let suffices = self.diagnosis.verdict != Verdict::Unknown || self.law_name().is_some();
-        let moved = if suffices { self.moved() } else { Vec::new() };
+        let mut moved = if suffices { self.moved() } else { Vec::new() };
+        let mut head = "constant that moved (fitted)";
+        if moved.is_empty() && self.diagnosis.verdict == Verdict::Recalibrate {
+            (moved, head) = (self.constants(), "none moved far; most of all (fitted)");
+            moved.sort_by(|a, b| b.moved().abs().total_cmp(&a.moved().abs()));
+            moved.truncate(MOST);
+        }
         let row = |constant: &Constant| {
             let p = &constant.posterior;
             let interval = p.ci90().map(|end| significant(end, 4)).join(" to ");
             vec![p.name.clone(), significant(p.value(), 4), format!("{:+.1}", constant.moved()), interval]
         };
-        let head = ["constant that moved (fitted)", "value", "sigma", "90 % interval"].map(str::to_owned).to_vec();
+        let head = [head, "value", "sigma", "90 % interval"].map(str::to_owned).to_vec();
         let all = moved.iter().map(row);
         if moved.is_empty() { Vec::new() } else { std::iter::once(head).chain(all).collect() }
     }

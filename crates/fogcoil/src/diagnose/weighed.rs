@@ -7,6 +7,7 @@ use bias::units::S_PER_MIN;
 use files::{Note, Remark, shown};
 use mechanisms::{Mechanism, RATE as RATE_CHANNEL, USUAL_NOISE, usual_coefficient};
 use recording::check::white_noise;
+use recording::statistics::robust_sd;
 use recording::{Recording, median_interval};
 
 use super::alike::{centred, repeats, sums};
@@ -24,6 +25,8 @@ const CONSTANT: f64 = 1e-9;
 const LIVELY_K: f64 = 1.0;
 /// Standard errors by which chance alone puts a correlation off 0.
 const BY_CHANCE: f64 = 5.0;
+/// Robust standard deviations of a column's steps beyond which one is a switch's.
+const SWITCHED: f64 = 4.0;
 
 /// A column in the rows of all fitted records.
 struct Column<'a> {
@@ -58,11 +61,16 @@ impl Column<'_> {
         // fourth differences, which a slow course hardly touches: both may follow the same cause
         let fourth = |w: &[f64]| w[0] - 4.0 * w[1] + 6.0 * w[2] - 4.0 * w[3] + w[4];
         let steps = |series: &[f64]| series.windows(5).map(fourth).collect::<Vec<_>>();
-        let pairs = self
-            .courses
-            .iter()
-            .zip(read)
-            .filter_map(|(own, read)| Some(centred(&steps(own), &steps(&read.channel(RATE)?.values))));
+        let own: Vec<Vec<f64>> = self.courses.iter().map(|course| steps(course)).collect();
+        let known = || own.iter().flatten().copied().filter(|step| step.is_finite());
+        // where a cause switches, the rate jumps with it: what is made from the rate moves in all rows alike
+        let most = match SWITCHED * robust_sd(known(), 0.0).unwrap_or_default() {
+            most if most > 0.0 => most,
+            _ => f64::INFINITY,
+        };
+        let even = |steps: &[f64]| steps.iter().map(|step| if step.abs() <= most { *step } else { f64::NAN }).collect::<Vec<_>>();
+        let pairs =
+            own.iter().zip(read).filter_map(|(own, read)| Some(centred(&even(own), &steps(&read.channel(RATE)?.values))));
         let pairs: Vec<(f64, f64)> = pairs.flatten().collect();
         let [aa, ab, bb] = sums(&pairs);
         ab.abs() > BY_CHANCE / (pairs.len() as f64).sqrt() * (aa * bb).sqrt()
@@ -93,47 +101,69 @@ fn noise(read: &[Recording]) -> f64 {
     read.iter().filter_map(of).reduce(f64::min).unwrap_or(USUAL_NOISE[RATE_CHANNEL])
 }
 
+/// Records of a unit with the columns that nothing reads.
+struct Unread {
+    /// As a diagnosis has them.
+    fits: Vec<Recording>,
+    /// The columns that nothing reads, of the fitted records and of those held out.
+    columns: [Vec<Recording>; 2],
+}
+
+impl Unread {
+    fn of(fits: &[&RecordCase], holdouts: &[&RecordCase]) -> Self {
+        // by name: the order of records says nothing
+        let mut fits = fits.to_vec();
+        fits.sort_by(|a, b| a.fingerprint.file.cmp(&b.fingerprint.file));
+        let kept = |record: &&RecordCase| record.ignored.select(&record.report.rows);
+        let columns = [&fits[..], holdouts].map(|records| records.iter().map(kept).collect());
+        Self { fits: fits.iter().map(|record| record.report.used(&record.recording)).collect(), columns }
+    }
+
+    /// Columns of numbers that all records hold and that go their own way: neither constant nor a line of the time, of a temperature or of the rate. The second
+    /// list has those that are made from the rate.
+    fn columns(&self) -> [Vec<Column<'_>>; 2] {
+        let [unread, held] = &self.columns;
+        let course = |record: &Recording, name: &str| -> Option<usize> {
+            let channel = record.channels().iter().position(|channel| channel.name == name)?;
+            let values = &record.channels()[channel].values;
+            let count = values.iter().filter(|value| value.is_finite()).count();
+            (count as f64 >= FULL * values.len() as f64 && count > 0).then_some(channel)
+        };
+        let names = unread.first().map_or(&[][..], Recording::channels).iter().map(|channel| channel.name.as_str());
+        let everywhere = |name: &str| -> Option<Vec<&[f64]>> {
+            held.iter().map(|record| course(record, name)).collect::<Option<Vec<_>>>()?;
+            unread.iter().map(|record| Some(record.channels()[course(record, name)?].values.as_slice())).collect()
+        };
+        let goes_its_own_way = |column: &Column| {
+            let of = |other: &'static str| {
+                column.repeats(self.fits.iter().map(|read| Some(read.channel(other)?.values.as_slice())))
+            };
+            !column.is_constant()
+                && !column.repeats(self.fits.iter().map(|read| Some(read.time())))
+                && ![CHAMBER, SPOOL, RATE].into_iter().any(of)
+        };
+        let columns = names.filter_map(|name| Some(Column { name, courses: everywhere(name)? })).filter(goes_its_own_way);
+        let (of_rate, other) = columns.partition(|column| column.is_of_rate(&self.fits));
+        [other, of_rate]
+    }
+}
+
 /// A mechanism for every column of numbers that all records of a unit hold, that nothing else reads, and that goes its own way: it is neither constant nor
 /// a line of the time, of a temperature, of the rate or of another column, nor made from the rate. Each adds a rate in proportion to its column. Their ids are
 /// none of those `taken`.
 pub fn of_columns(fits: &[RecordCase], holdouts: &[RecordCase], taken: &[&dyn Mechanism]) -> Vec<MechanismCase> {
-    // as a diagnosis has them, whose order of records says nothing
-    let mut fits: Vec<&RecordCase> = fits.iter().collect();
-    fits.sort_by(|a, b| a.fingerprint.file.cmp(&b.fingerprint.file));
-    let kept = |record: &&RecordCase| record.ignored.select(&record.report.rows);
-    let read: Vec<Recording> = fits.iter().map(|record| record.report.used(&record.recording)).collect();
-    let unread: Vec<Recording> = fits.iter().map(kept).collect();
-    let held: Vec<Recording> = holdouts.iter().map(|record| kept(&record)).collect();
-    let course = |record: &'_ Recording, name: &str| -> Option<usize> {
-        let channel = record.channels().iter().position(|channel| channel.name == name)?;
-        let values = &record.channels()[channel].values;
-        let count = values.iter().filter(|value| value.is_finite()).count();
-        (count as f64 >= FULL * values.len() as f64 && count > 0).then_some(channel)
-    };
-    let names = unread.first().map_or(&[][..], Recording::channels).iter().map(|channel| channel.name.as_str());
-    let own_way = |name: &str| -> Option<Vec<&[f64]>> {
-        held.iter().map(|record| course(record, name)).collect::<Option<Vec<_>>>()?;
-        unread.iter().map(|record| Some(record.channels()[course(record, name)?].values.as_slice())).collect()
-    };
-    let columns = names.filter_map(|name| Some(Column { name, courses: own_way(name)? }));
-    let goes_its_own_way = |column: &Column| {
-        let of = |other: &'static str| column.repeats(read.iter().map(|read| Some(read.channel(other)?.values.as_slice())));
-        !column.is_constant()
-            && !column.repeats(read.iter().map(|read| Some(read.time())))
-            && ![CHAMBER, SPOOL, RATE].into_iter().any(of)
-            && !column.is_of_rate(&read)
-    };
-    let mut columns: Vec<(f64, Column)> =
-        columns.filter(goes_its_own_way).map(|column| (column.with_rate(&read), column)).collect();
+    let unread = Unread::of(&fits.iter().collect::<Vec<_>>(), &holdouts.iter().collect::<Vec<_>>());
+    let (read, [columns, _]) = (&unread.fits, unread.columns());
+    let mut columns: Vec<(f64, Column)> = columns.into_iter().map(|column| (column.with_rate(read), column)).collect();
     columns.sort_by(|a, b| b.0.total_cmp(&a.0).then_with(|| a.1.name.cmp(b.1.name)));
-    let (noise, mut ids) = (noise(&read), taken.iter().map(|own| own.facts().id.to_owned()).collect());
+    let (noise, mut ids) = (noise(read), taken.iter().map(|own| own.facts().id.to_owned()).collect());
     let (mut chosen, mut all): (Vec<Column>, Vec<MechanismCase>) = (Vec::new(), Vec::new());
     for (_, column) in columns {
         let is_another = |other: &Column| column.repeats(other.courses.iter().map(|course| Some(*course)));
         if all.len() == MOST || chosen.iter().any(is_another) {
             continue;
         }
-        let size = column.usual_size(&read, noise);
+        let size = column.usual_size(read, noise);
         let own =
             (size.is_finite() && size > 0.0).then(|| mechanism(column.name, &id(column.name, &mut ids), size, column.mean()));
         all.extend(own.flatten());
@@ -142,15 +172,20 @@ pub fn of_columns(fits: &[RecordCase], holdouts: &[RecordCase], taken: &[&dyn Me
     all
 }
 
-/// The note that these are weighed, if there are any.
-pub(super) fn note(columns: &[&MechanismCase]) -> Option<Note> {
-    let names: Vec<String> =
-        columns.iter().flat_map(|own| own.mechanism.columns()).map(|name| format!("`{}`", shown(name))).collect();
-    let text = format!(
-        "weighed beside the mechanisms: that the rate follows a column that the model does not use ({})",
-        names.join(", ")
-    );
-    (!names.is_empty()).then(|| Remark::WeighedColumn.note(text))
+/// The note that these are weighed, and which of the other columns are not because they are made from the rate, if there are any.
+pub(super) fn note(columns: &[&MechanismCase], fits: &[&RecordCase], holdouts: &[RecordCase]) -> Option<Note> {
+    let told = |names: Vec<&str>| {
+        let quoted: Vec<String> = names.into_iter().map(|name| format!("`{}`", shown(name))).collect();
+        Some(quoted.join(", ")).filter(|names| !names.is_empty())
+    };
+    let unread = Unread::of(fits, &holdouts.iter().collect::<Vec<_>>());
+    let [_, of_rate] = unread.columns();
+    let weighed = told(columns.iter().flat_map(|own| own.mechanism.columns()).collect())
+        .map(|names| format!("weighed beside the mechanisms: that the rate follows a column that the model does not use ({names})"));
+    let left = told(of_rate.iter().map(|column| column.name).collect())
+        .map(|names| format!("not weighed: {names}, which moves with the rate from row to row, as if made from it"));
+    let parts: Vec<String> = weighed.into_iter().chain(left).collect();
+    (!parts.is_empty()).then(|| Remark::WeighedColumn.note(parts.join("; ")))
 }
 
 /// `follows-` and the column's name without its unit, in small letters and hyphens; with a number where that is none, or another's.
@@ -201,12 +236,17 @@ mod tests {
     /// Three hours of minutes: a chamber that is warmed and held, a spool and a board behind it, and a gyroscope with noise. `further` makes more columns of
     /// minutes, chamber, board and rate.
     fn record(header: &str, further: impl Fn([f64; 4]) -> String) -> RecordCase {
+        record_with(header, |_| 0.0, further)
+    }
+
+    /// The same with a rate by minutes added to the noise.
+    fn record_with(header: &str, added: impl Fn(f64) -> f64, further: impl Fn([f64; 4]) -> String) -> RecordCase {
         let (mut spool, mut board, mut rows) = (20.0, 20.0, String::new());
         for n in 0..180 {
             let chamber = 20.0 + 30.0 * (f64::from(n) / 60.0).min(1.0) + 0.01 * f64::from(n % 3);
             spool += (chamber - spool) / 20.0;
             board += (chamber - board) / 80.0;
-            let rate = 0.02 * f64::from(n * n * 37 % 101);
+            let rate = 0.02 * f64::from(n * n * 37 % 101) + added(f64::from(n));
             let more = further([f64::from(n), chamber, board, rate]);
             rows += &format!("{},{chamber:.3},{spool:.3},{rate:.4}{more}\n", 60 * n);
         }
@@ -253,6 +293,23 @@ mod tests {
         let text = "time_s,chamber_c,spool_c,rate_deg_per_h,Board [degC]\n0,20,20,0,1\n60,20,20,0,2\n120,20,20,0,3\n";
         let named = check_record(Path::new("r.csv"), text.to_owned(), None, &["Board [degC]".to_owned()]).unwrap();
         assert!(ids(&[named], &[]).is_empty());
+    }
+
+    #[test]
+    fn a_cause_that_switches_is_weighed_though_the_rate_jumps_with_it() {
+        let noise = |n: f64, k: f64| (n * n * k % 101.0) / 101.0 - 0.5;
+        let field = |n: f64| 0.1 * noise(n, 53.0) + if (n / 20.0) as usize % 2 == 0 { 0.0 } else { 7.0 };
+        // beside the rate's own noise of 0.6 deg/h; the filtered reading of that is made from it, and the note says so
+        let last = std::cell::Cell::new(0.0);
+        let text = |[n, _, _, rate]: [f64; 4]| {
+            last.set(0.7 * last.get() + 0.3 * rate);
+            format!(",{:.3},{:.4}", field(n), last.get())
+        };
+        let case = record_with(",B [uT],smooth", |n| 0.3 * field(n), text);
+        let own = of_columns(std::slice::from_ref(&case), &[], &[]);
+        assert_eq!(own.iter().map(|own| own.mechanism.id.as_str()).collect::<Vec<_>>(), ["follows-b"]);
+        let note = note(&own.iter().collect::<Vec<_>>(), &[&case], &[]).unwrap();
+        assert!(note.text.contains("(`B [uT]`); not weighed: `smooth`"), "{note:?}");
     }
 
     #[test]

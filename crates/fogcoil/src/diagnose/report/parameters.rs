@@ -33,7 +33,11 @@ impl Outcome<'_> {
             Verdict::Recalibrate => p.place == Place::Nominal(Role::Constant),
             Verdict::None => false,
         };
-        let fitted: Vec<&Posterior> = all.iter().filter(wanted).collect();
+        let mut fitted: Vec<&Posterior> = all.iter().filter(wanted).collect();
+        if self.diagnosis.verdict == Verdict::Recalibrate {
+            // of many constants those that moved most come first
+            fitted.sort_by(|a, b| b.u.abs().total_cmp(&a.u.abs()));
+        }
         if fitted.is_empty() {
             return Markup::default();
         }
@@ -53,9 +57,9 @@ impl Outcome<'_> {
         let rows: Vec<Vec<String>> = fitted
             .iter()
             .map(|p| {
-                let unit = parameter_unit(&p.name).into_owned();
+                let (name, unit) = named(&p.name);
                 let [after, before] = [self.interval(p), central(p, 0.0, 1.0)].map(interval);
-                vec![p.name.clone(), significant(p.value(), 4), unit, after, before]
+                vec![name, significant(p.value(), 4), unit, after, before]
             })
             .collect();
         let head = ["parameter", "value (fitted)", "unit", "90 % interval", "90 % of the prior"];
@@ -71,6 +75,12 @@ impl Outcome<'_> {
             @for choice in chosen { p { (choice) } "\n" }
         }
     }
+}
+
+/// A number's name and its unit, which stands in brackets behind a constant's name and at the end of a parameter's.
+fn named(name: &str) -> (String, String) {
+    let bracketed = name.strip_suffix(']').and_then(|name| name.rsplit_once(" ["));
+    bracketed.map_or_else(|| (name.to_owned(), parameter_unit(name).into_owned()), |(name, unit)| (name.to_owned(), unit.to_owned()))
 }
 
 /// The numbers of a law that was composed.
@@ -127,4 +137,20 @@ fn panel(p: &Posterior, [low, high]: [f64; 2]) -> Panel<'static> {
             Series::new("posterior", Style::First, posterior),
         ],
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_unit_stands_in_its_own_column() {
+        let told = |name: &str| {
+            let (name, unit) = named(name);
+            format!("{name} | {unit}")
+        };
+        assert_eq!(told("CW tail less CCW tail, beyond the drawing's [m]"), "CW tail less CCW tail, beyond the drawing's | m");
+        assert_eq!(told("power_w"), "power_w | W");
+        assert_eq!(told("alpha_r"), "alpha_r | 1");
+    }
 }
