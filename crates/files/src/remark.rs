@@ -430,6 +430,11 @@ impl Serialize for Note {
 }
 
 impl Remark {
+    /// Whether it says that a record is read wrongly, or is no record of the unit: what is concluded from it is void.
+    pub fn voids(self) -> bool {
+        matches!(self, Self::ExchangedColumns | Self::LooseThermometer | Self::ChamberJump | Self::ReversedRate)
+    }
+
     /// A note of this kind.
     pub fn note(self, text: impl Into<String>) -> Note {
         Note { remark: self, severity: Severity::Note, place: None, text: text.into() }

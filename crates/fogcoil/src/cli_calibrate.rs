@@ -8,6 +8,8 @@ use fogcoil::input::RecordOptions;
 use fogcoil::output::Content;
 use fogcoil::{Error, calibrate, diagnose, input};
 
+use files::shown;
+
 use crate::progress::Progress;
 use crate::{line, print};
 
@@ -56,7 +58,13 @@ fn records(text: &str) -> Result<Records, String> {
 pub(crate) fn run(arguments: &Calibrate, progress: &Progress) -> Result<(), Error> {
     let Calibrate { coil, good, each, passed, out, json, meta, map, no_cache } = arguments;
     let judged = passed.as_deref().map(input::read_passed).transpose()?.unwrap_or_default();
-    let judged: Vec<Records> = judged.into_iter().map(Records::from).collect();
+    for unit in &judged.left_out {
+        progress.note(&format!(
+            "{}: left out, although it passed: a warning says that what a record of it says is void",
+            shown(unit)
+        ));
+    }
+    let judged: Vec<Records> = judged.units.into_iter().map(Records::from).collect();
     let good: Vec<&Records> = good.iter().chain(each).chain(&judged).collect();
     let options = RecordOptions { map: map.clone(), meta: meta.clone(), ..RecordOptions::default() };
     let records = good.iter().flat_map(|unit| unit.iter()).flat_map(|record| options.files(record));

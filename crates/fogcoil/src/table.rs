@@ -1,4 +1,4 @@
-//! Aligned text for people.
+//! Text for people: sentences, numbers and aligned tables.
 
 use std::fmt::Write;
 
@@ -24,6 +24,11 @@ pub(crate) fn table(rows: &[impl AsRef<[String]>]) -> String {
         text.push('\n');
     }
     text
+}
+
+/// The words with a capital at their beginning.
+pub(crate) fn capital(words: &str) -> String {
+    words.chars().take(1).flat_map(char::to_uppercase).chain(words.chars().skip(1)).collect()
 }
 
 /// Ln odds, `shown` as far as they are more than "certain": larger ones depend on the noise that a hypothesis was judged with.

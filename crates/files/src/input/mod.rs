@@ -74,7 +74,7 @@ pub use mechanism::{MechanismCase, check_mechanism, read_mechanism};
 pub use meta::{Meta, Rate, Serial, TemperatureSensor, Thermometer};
 pub use name::meant;
 pub use opened::{check_ron, fault_in, is_coil, read_ron, read_text};
-pub use passed::{BETWEEN_FILES, read_passed};
+pub use passed::{BETWEEN_FILES, Passed, read_passed};
 pub use profile::{Between, Inference, ProfileCase, Recorded, check_profile, read_mapped_profile, read_profile};
 pub use propose::{ProposedMap, propose_map};
 pub use record::{RecordCase, check_record, read_record};

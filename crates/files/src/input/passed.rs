@@ -4,15 +4,25 @@ use std::path::{Path, PathBuf};
 
 use super::InputError;
 use super::rows::{Dialect, Rows, quoted};
+use crate::Remark;
 
 /// Between the files of a unit in the table of a batch.
 pub const BETWEEN_FILES: &str = "; ";
 
-/// Records of each unit that passed, of the `table.csv` that `fogcoil batch --out` writes; their paths are as that command was given them.
+/// Units that passed.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Passed {
+    /// Records of each.
+    pub units: Vec<Vec<PathBuf>>,
+    /// Names of those left out: a warning says that a record of them is read wrongly, or is none of the unit.
+    pub left_out: Vec<String>,
+}
+
+/// Units that passed, of the `table.csv` that `fogcoil batch --out` writes; the paths of their records are as that command was given them.
 ///
 /// # Errors
 /// The fault, in which file, line and column, and how to mend it.
-pub fn read_passed(path: &Path) -> Result<Vec<Vec<PathBuf>>, InputError> {
+pub fn read_passed(path: &Path) -> Result<Passed, InputError> {
     let mut rows = Rows::open(path, "the table of a batch (table.csv)", Dialect::STANDARD)?;
     rows.header("unit,judged,files")?;
     let names: Vec<String> = rows.fields().map(str::to_owned).collect();
@@ -21,10 +31,18 @@ pub fn read_passed(path: &Path) -> Result<Vec<Vec<PathBuf>>, InputError> {
         names.iter().position(|known| known == name).ok_or_else(|| rows.fault(Some(name), "the column is missing", remedy))
     };
     let [judged, files] = [place("judged")?, place("files")?];
-    let mut passed = Vec::new();
+    // an older table may have none
+    let [unit, warnings] = ["unit", "warnings"].map(|name| names.iter().position(|known| known == name));
+    let mut passed = Passed::default();
     while rows.advance()? {
         rows.check_count(names.len(), ",", |_, _| "give the table as fogcoil batch wrote it")?;
         if rows.field(judged) != "pass" {
+            continue;
+        }
+        let field = |place: Option<usize>| place.map_or("", |place| rows.field(place));
+        let is_void = |id: &str| Remark::ALL.iter().any(|remark| remark.id() == id && remark.voids());
+        if field(warnings).split(BETWEEN_FILES).any(is_void) {
+            passed.left_out.push(field(unit).to_owned());
             continue;
         }
         let records: Vec<PathBuf> =
@@ -33,9 +51,9 @@ pub fn read_passed(path: &Path) -> Result<Vec<Vec<PathBuf>>, InputError> {
             let problem = format!("{} is no list of records", quoted(rows.field(files)));
             return Err(rows.fault(Some("files"), problem, "give the table as fogcoil batch wrote it"));
         }
-        passed.push(records);
+        passed.units.push(records);
     }
-    if passed.is_empty() {
+    if passed.units.is_empty() {
         return Err(
             rows.whole_fault("no unit has passed", "let fogcoil batch judge them by --limits, or name the units with --unit")
         );
@@ -47,7 +65,7 @@ pub fn read_passed(path: &Path) -> Result<Vec<Vec<PathBuf>>, InputError> {
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> Result<Vec<Vec<PathBuf>>, String> {
+    fn read(text: &str) -> Result<Passed, String> {
         let folder = tempfile::tempdir().unwrap();
         let table = folder.path().join("table.csv");
         std::fs::write(&table, text).unwrap();
@@ -58,7 +76,11 @@ mod tests {
     fn units_that_passed_are_read_with_their_records() {
         let table = "unit,judged,reason,files\nA,pass,,a/1.csv; a/2.csv\nB,fail,\"arw is 0.1, more than 0.01\",b.csv\nC,pass,,c.csv\nD,not known,\"a \"\"b\"\"\",d.csv\n";
         let of = |files: &[&str]| files.iter().map(PathBuf::from).collect::<Vec<_>>();
-        assert_eq!(read(table), Ok(vec![of(&["a/1.csv", "a/2.csv"]), of(&["c.csv"])]));
+        let units = vec![of(&["a/1.csv", "a/2.csv"]), of(&["c.csv"])];
+        assert_eq!(read(table), Ok(Passed { units, left_out: Vec::new() }));
+        // of one whose thermometer fell off nothing is learnt; other warnings leave it good
+        let table = "unit,judged,warnings,files\nA,pass,held-out-left; loose-thermometer,a.csv\nB,pass,gap,b.csv\n";
+        assert_eq!(read(table), Ok(Passed { units: vec![of(&["b.csv"])], left_out: vec!["A".into()] }));
     }
 
     #[test]

@@ -28,7 +28,8 @@ impl Doubt {
 
     /// The verdict of a unit, with a question mark where it is not sure; where most are not, only far below the others, or below another verdict.
     pub(super) fn shown(&self, row: &Row) -> Option<String> {
-        let mark = if row.rival.is_some() || row.is_pressed() || probability(row).is_some_and(|p| p < self.below) { "?" } else { "" };
+        let mark =
+            if row.rival.is_some() || row.is_pressed() || probability(row).is_some_and(|p| p < self.below) { "?" } else { "" };
         row.verdict.as_ref().map(|verdict| format!("{verdict}{mark}"))
     }
 

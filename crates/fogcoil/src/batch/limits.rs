@@ -184,7 +184,9 @@ impl Limits {
             return Judged::NotKnown(vec![problem.clone()]);
         }
         let verdict = (!self.verdicts.is_empty()).then(|| match &row.verdict {
-            Some(verdict) if self.verdicts.contains(verdict) => row.rival.as_ref().map_or(Kept::Yes, |rival| not_sure(verdict, rival, row)),
+            Some(verdict) if self.verdicts.contains(verdict) => {
+                row.rival.as_ref().map_or(Kept::Yes, |rival| not_sure(verdict, rival, row))
+            }
             Some(verdict) if verdict == "explained" => {
                 let drawing = row.drawing.as_ref().map_or(String::new(), |word| format!("{word} in place of the drawing's, or "));
                 Kept::No(format!("an effect was found: {drawing}{}", row.open()))

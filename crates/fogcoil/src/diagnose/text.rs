@@ -11,7 +11,7 @@ use super::apart::TOLD;
 use super::constants::Constant;
 use super::{NOMINAL, Outcome};
 use crate::compose::StandIn;
-use crate::table::{significant, table};
+use crate::table::{capital, significant, table};
 use crate::units::parameter_unit;
 
 /// Probability from which the design is said to suffice without more words.
@@ -20,7 +20,7 @@ const LIKELY: f64 = 0.65;
 /// Standard deviations from which a constant that moved is worth a word beside a mechanism that would do the same.
 const MUCH: f64 = 2.0;
 
-/// Constants that are told where none moved far.
+/// Constants that are told where none moved far, and mechanisms that are not far behind.
 const MOST: usize = 3;
 
 impl Outcome<'_> {
@@ -168,12 +168,7 @@ impl Outcome<'_> {
 
     /// The warning that a record seems to have columns exchanged, a loose thermometer, a chamber whose readings jumped or its rate negated, if there is one.
     pub(super) fn misread(&self) -> Option<&Note> {
-        self.notes.iter().find(|note| {
-            matches!(
-                note.remark,
-                Remark::ExchangedColumns | Remark::LooseThermometer | Remark::ChamberJump | Remark::ReversedRate
-            )
-        })
+        self.notes.iter().find(|note| note.remark.voids())
     }
 
     /// The step that a warning asks for; of a drawing with the word that is in doubt.
@@ -310,6 +305,18 @@ impl Outcome<'_> {
         }
     }
 
+    /// The sentence that what was held out confirms `it`, as far as it does.
+    fn confirmed(&self, it: &str) -> String {
+        let most = self.holdouts.iter().map(|held| (held, held.model.over_noise(RATE_CHANNEL)));
+        match most.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(held, _)| held.model.is_far_from_noise(RATE_CHANNEL)) {
+            Some((held, times)) => format!(
+                "A record that was held out is predicted better with it, but {} keeps {times:.1} times its noise: the cause is confirmed, its size is not.",
+                shown(&held.record.name())
+            ),
+            None => format!("A record that was held out confirms {it}."),
+        }
+    }
+
     /// The step after this answer if the unit is as it is drawn.
     fn next_as_drawn(&self) -> String {
         let proven = !self.holdouts.is_empty() && self.accepted();
@@ -320,7 +327,7 @@ impl Outcome<'_> {
             );
         }
         if self.in_place_of_all().is_some() {
-            let confirmed = if proven { " A record that was held out confirms the size of the effect." } else { "" };
+            let confirmed = if proven { format!(" {}", self.confirmed("the size of the effect")) } else { String::new() };
             return format!(
                 "seek the cause among the known physics of the law's form; no mechanism with a name is likely, so no inspection for one is called \
                  for.{confirmed}"
@@ -351,14 +358,15 @@ impl Outcome<'_> {
                 let [is, it] = if several { ["are", "them"] } else { ["is", "it"] };
                 match self.law_in_place() {
                     Some(_) if self.told_names().len() < self.names().len() => format!(
-                        "inspect the unit for {names}. A record that was held out confirms the size of the effect; what acts beside {names} is best \
-                         described by a law that nobody listed: seek its cause among the known physics of that form."
+                        "inspect the unit for {names}. {} What acts beside {names} is best described by a law that nobody listed: seek its cause among \
+                         the known physics of that form.",
+                        self.confirmed("the size of the effect")
                     ),
                     Some(_) => format!(
-                        "inspect the unit for {names}. A record that was held out confirms the size of the effect; it does not tell {names} from a \
-                         law that nobody listed, which only the inspection does."
+                        "inspect the unit for {names}. {} It does not tell {names} from a law that nobody listed, which only the inspection does.",
+                        self.confirmed("the size of the effect")
                     ),
-                    None => format!("inspect the unit. Only {names} {is} left, and a record that was held out confirms {it}."),
+                    None => format!("inspect the unit. Only {names} {is} left. {}", self.confirmed(it)),
                 }
             }
             Verdict::Explained if !self.holdouts.is_empty() => format!(
@@ -368,14 +376,18 @@ impl Outcome<'_> {
             Verdict::Explained => {
                 format!("inspect the unit; to confirm {} on data outside the fit, {another}.", self.told_names().join(" and "))
             }
-            Verdict::None | Verdict::Recalibrate if self.runner_up().is_some() => {
-                let (id, probability, inspection) = self.runner_up().unwrap_or_default();
+            Verdict::None | Verdict::Recalibrate if !self.runners_up().is_empty() => {
+                let runners = self.runners_up();
+                let told = |(id, probability, inspection): &(&str, f64, &str)| format!("{id} (probability {probability:.2}): {inspection}");
+                let all = runners.iter().map(told).collect::<Vec<_>>().join("; ");
+                let [are, cheapest] = if runners.len() > 1 { ["Not far behind are", "the inspection that costs least"] } else { ["Not far behind is", "this"] };
                 let far = self.moved().into_iter().find(|c| c.moved().abs() > MUCH);
                 let far = far.map_or(String::new(), |c| {
                     format!("; {} would be {:+.1} standard deviations off what is known of it", c.posterior.name, c.moved())
                 });
                 format!(
-                    "{id} is not far behind (probability {probability:.2}){far}. To decide: {inspection}; or give a record under another profile with --fit{}.", self.or_lot()
+                    "{are} {all}{far}. To decide, begin with {cheapest}; or give a record under another profile with --fit{}.",
+                    self.or_lot()
                 )
             }
             Verdict::None | Verdict::Recalibrate if !self.suffices_surely() => {
@@ -422,12 +434,19 @@ impl Outcome<'_> {
         (constants && probability > none + recalibrate).then(|| (self.id(first), inspection))
     }
 
-    /// The mechanism that is at least half as likely as that the design suffices, with its probability and a check that decides about it.
-    fn runner_up(&self) -> Option<(&str, f64, &str)> {
+    /// Mechanisms that are not far behind, where one is at least half as likely as that the design suffices: that one and those half as likely, with their
+    /// probabilities and the checks that decide about them.
+    fn runners_up(&self) -> Vec<(&str, f64, &str)> {
         let [none, recalibrate, ..] = self.diagnosis.verdicts();
-        let (first, probability) = *self.diagnosis.mechanisms.first()?;
-        let inspection = self.gyro.mechanism(first).facts().inspection()?;
-        (2.0 * probability >= none + recalibrate).then(|| (self.id(first), probability, inspection))
+        let first = self.diagnosis.mechanisms.first().map_or(0.0, |(_, probability)| *probability);
+        let all = self
+            .diagnosis
+            .mechanisms
+            .iter()
+            .filter(|(_, probability)| 2.0 * first >= none + recalibrate && 2.0 * probability >= first);
+        let told =
+            all.filter_map(|&(m, probability)| Some((self.id(m), probability, self.gyro.mechanism(m).facts().inspection()?)));
+        told.take(MOST).collect()
     }
 
     /// Whether the design, or its constants, suffice for all records, and likely so.
@@ -488,9 +507,4 @@ pub(super) fn place(stage: &str, extent: &Extent) -> String {
         let _ = write!(place, ", from {} to {} h", significant(from / S_PER_H, 3), significant(to / S_PER_H, 3));
     }
     place
-}
-
-/// The words with a capital at their beginning.
-pub(super) fn capital(words: &str) -> String {
-    words.chars().take(1).flat_map(char::to_uppercase).chain(words.chars().skip(1)).collect()
 }

@@ -69,8 +69,7 @@ impl Column<'_> {
             _ => f64::INFINITY,
         };
         let even = |steps: &[f64]| steps.iter().map(|step| if step.abs() <= most { *step } else { f64::NAN }).collect::<Vec<_>>();
-        let pairs =
-            own.iter().zip(read).filter_map(|(own, read)| Some(centred(&even(own), &steps(&read.channel(RATE)?.values))));
+        let pairs = own.iter().zip(read).filter_map(|(own, read)| Some(centred(&even(own), &steps(&read.channel(RATE)?.values))));
         let pairs: Vec<(f64, f64)> = pairs.flatten().collect();
         let [aa, ab, bb] = sums(&pairs);
         ab.abs() > BY_CHANCE / (pairs.len() as f64).sqrt() * (aa * bb).sqrt()
@@ -135,9 +134,8 @@ impl Unread {
             unread.iter().map(|record| Some(record.channels()[course(record, name)?].values.as_slice())).collect()
         };
         let goes_its_own_way = |column: &Column| {
-            let of = |other: &'static str| {
-                column.repeats(self.fits.iter().map(|read| Some(read.channel(other)?.values.as_slice())))
-            };
+            let of =
+                |other: &'static str| column.repeats(self.fits.iter().map(|read| Some(read.channel(other)?.values.as_slice())));
             !column.is_constant()
                 && !column.repeats(self.fits.iter().map(|read| Some(read.time())))
                 && ![CHAMBER, SPOOL, RATE].into_iter().any(of)
@@ -180,8 +178,9 @@ pub(super) fn note(columns: &[&MechanismCase], fits: &[&RecordCase], holdouts: &
     };
     let unread = Unread::of(fits, &holdouts.iter().collect::<Vec<_>>());
     let [_, of_rate] = unread.columns();
-    let weighed = told(columns.iter().flat_map(|own| own.mechanism.columns()).collect())
-        .map(|names| format!("weighed beside the mechanisms: that the rate follows a column that the model does not use ({names})"));
+    let weighed = told(columns.iter().flat_map(|own| own.mechanism.columns()).collect()).map(|names| {
+        format!("weighed beside the mechanisms: that the rate follows a column that the model does not use ({names})")
+    });
     let left = told(of_rate.iter().map(|column| column.name).collect())
         .map(|names| format!("not weighed: {names}, which moves with the rate from row to row, as if made from it"));
     let parts: Vec<String> = weighed.into_iter().chain(left).collect();

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::{Limits, Odds, Ranked, Recommendation, Size, WithSensor};
-use crate::table::{significant, table};
+use crate::table::{capital, significant, table};
 
 /// Most programmes in the table.
 const SHOWN: usize = 8;
@@ -82,7 +82,7 @@ pub(crate) fn sentence(r: &Recommendation) -> String {
         "No profile within the limits separates {all}: the best of the insufficient ones, {name}, gives ln odds {odds}{hardest}. "
     );
     if repeat_is_better {
-        let _ = write!(out, "{repeat}, done again, gives more, but not enough (ln odds {repeated}). ");
+        let _ = write!(out, "{}, done again, gives more, but not enough (ln odds {repeated}). ", capital(repeat));
     }
     let sensor = r.sensors.iter().filter(|s| s.odds.decides()).max_by(|a, b| a.odds.log_odds.total_cmp(&b.odds.log_odds));
     match sensor {
@@ -100,8 +100,7 @@ pub(crate) fn sentence(r: &Recommendation) -> String {
 /// The recommendation as text.
 pub fn text(r: &Recommendation) -> String {
     let said = sentence(r);
-    // a sentence begins with a capital
-    let mut out = said[..1].to_uppercase() + &said[1..] + "\n\n";
+    let mut out = capital(&said) + "\n\n";
     let (Limits { coldest, hottest, fastest, hours }, sizes) =
         (r.limits, if r.fitted { "fitted to the record" } else { "typical" });
     let _ = writeln!(

@@ -335,7 +335,7 @@ fn the_page_stands_alone(page: &str) {
         // as docs/diagnosis.md says
         "gain of the rate 0.3 %, gain of the Shupe part 0.6 %, start off rest",
         "15 mechanisms with a name and 6 without one alone",
-        "Inspect the unit. Only debond is left, and a record that was held out confirms it.",
+        "Inspect the unit. Only debond is left. A record that was held out confirms it.",
     ] {
         assert!(page.contains(part), "{part}");
     }

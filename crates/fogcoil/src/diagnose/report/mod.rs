@@ -17,10 +17,10 @@ use maud::{Markup, html};
 use mechanisms::{Naming, RATE, SPOOL};
 
 use super::apart::TOLD;
-use super::text::capital;
 use super::{NOMINAL, Outcome, REFITTED, Record};
 use crate::compose::StandIn;
 use crate::report::provenance;
+use crate::table::capital;
 use crate::units::{DurationUnit, parameter_unit};
 
 /// A fit beside the record that it is shown for.

@@ -6,8 +6,8 @@ use maud::{Markup, html};
 
 use crate::diagnose::Outcome;
 use crate::diagnose::apart::TOLD;
-use crate::diagnose::text::capital;
 use crate::recommend::{Limits, Odds, Question, Recommendation, figure, number, sentence};
+use crate::table::capital;
 
 impl Outcome<'_> {
     pub(super) fn next_test(&self) -> Markup {

@@ -80,7 +80,8 @@ impl Outcome<'_> {
 /// A number's name and its unit, which stands in brackets behind a constant's name and at the end of a parameter's.
 fn named(name: &str) -> (String, String) {
     let bracketed = name.strip_suffix(']').and_then(|name| name.rsplit_once(" ["));
-    bracketed.map_or_else(|| (name.to_owned(), parameter_unit(name).into_owned()), |(name, unit)| (name.to_owned(), unit.to_owned()))
+    bracketed
+        .map_or_else(|| (name.to_owned(), parameter_unit(name).into_owned()), |(name, unit)| (name.to_owned(), unit.to_owned()))
 }
 
 /// The numbers of a law that was composed.
