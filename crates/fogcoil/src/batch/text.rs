@@ -25,7 +25,7 @@ pub fn text(batch: &Batch) -> String {
             shown(row.number("residual_over_noise"), 3),
             doubt.shown(row).unwrap_or_else(|| "-".into()),
             judged.word().to_owned(),
-            [row.warned(), Some(row.open()).filter(|open| !open.is_empty()), reasons]
+            [row.warned(), Some(row.open()).filter(|open| !reasons.as_ref().is_some_and(|told| told.contains(open))), reasons.clone()]
                 .into_iter()
                 .flatten()
                 .collect::<Vec<_>>()

@@ -70,7 +70,9 @@ pub(super) fn tolerances(cases: [&CoilCase; 2]) -> Vec<Differing> {
         if cases[0].tolerances.of(number) == cases[1].tolerances.of(number) {
             return None;
         }
-        Some(Differing { key: key.to_owned(), unit: None, values: cases.map(|case| tolerance_in_words(case, number)) })
+        // two that are larger than a number can have are one
+        let values = cases.map(|case| tolerance_in_words(case, number));
+        (values[0] != values[1]).then(|| Differing { key: key.to_owned(), unit: None, values })
     };
     Number::every().filter_map(of).collect()
 }
