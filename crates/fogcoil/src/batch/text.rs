@@ -25,11 +25,15 @@ pub fn text(batch: &Batch) -> String {
             shown(row.number("residual_over_noise"), 3),
             doubt.shown(row).unwrap_or_else(|| "-".into()),
             judged.word().to_owned(),
-            [row.warned(), Some(row.open()).filter(|open| !reasons.as_ref().is_some_and(|told| told.contains(open))), reasons.clone()]
-                .into_iter()
-                .flatten()
-                .collect::<Vec<_>>()
-                .join("; "),
+            [
+                row.warned(),
+                Some(row.open()).filter(|open| !reasons.as_ref().is_some_and(|told| told.contains(open))),
+                reasons.clone(),
+            ]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join("; "),
         ]
     });
     let rows: Vec<Vec<String>> = std::iter::once(head).chain(rows).collect();

@@ -25,6 +25,11 @@ const CONSTANT: f64 = 1e-9;
 const LIVELY_K: f64 = 1.0;
 /// Standard errors by which chance alone puts a correlation off 0.
 const BY_CHANCE: f64 = 5.0;
+/// Correlation of a column's steps with those of the rate from which it is made from it: of a running mean it is 0.66, of a low-pass filter 0.9, of one of the
+/// second order 0.7; a cause whose own fluctuations are much less than the rate's noise stays below.
+const MADE: f64 = 0.5;
+/// Rows by which a column that is made from the rate may be late or early.
+const LATEST: isize = 16;
 /// Robust standard deviations of a column's steps beyond which one is a switch's.
 const SWITCHED: f64 = 4.0;
 
@@ -69,10 +74,16 @@ impl Column<'_> {
             _ => f64::INFINITY,
         };
         let even = |steps: &[f64]| steps.iter().map(|step| if step.abs() <= most { *step } else { f64::NAN }).collect::<Vec<_>>();
-        let pairs = own.iter().zip(read).filter_map(|(own, read)| Some(centred(&even(own), &steps(&read.channel(RATE)?.values))));
-        let pairs: Vec<(f64, f64)> = pairs.flatten().collect();
-        let [aa, ab, bb] = sums(&pairs);
-        ab.abs() > BY_CHANCE / (pairs.len() as f64).sqrt() * (aa * bb).sqrt()
+        let both: Vec<(Vec<f64>, Vec<f64>)> =
+            own.iter().zip(read).filter_map(|(own, read)| Some((even(own), steps(&read.channel(RATE)?.values)))).collect();
+        // a mean about a row, or of rows before, is that much later or earlier
+        (-LATEST..=LATEST).any(|late| {
+            let [ahead, behind] = [late.max(0), (-late).max(0)].map(isize::unsigned_abs);
+            let pairs = both.iter().filter_map(|(own, rate)| Some(centred(own.get(ahead..)?, rate.get(behind..)?)));
+            let pairs: Vec<(f64, f64)> = pairs.flatten().collect();
+            let [aa, ab, bb] = sums(&pairs);
+            ab.abs() > MADE.max(BY_CHANCE / (pairs.len() as f64).sqrt()) * (aa * bb).sqrt()
+        })
     }
 
     fn mean(&self) -> f64 {
@@ -282,6 +293,13 @@ mod tests {
             format!(",{:.4},{board:.2}", last.iter().sum::<f64>() / last.len() as f64)
         });
         assert_eq!(one(&filtered), ["follows-board"]);
+        // a mean of eleven readings about each row: no reading of it is of its own row alone
+        let noise = |n: f64| 0.02 * f64::from((n as i32 * n as i32 * 37).rem_euclid(101));
+        let about = record(",about,Board [degC]", |[n, _, board, _]| {
+            let mean = (-5..=5).map(|k| noise((n + f64::from(k)).clamp(0.0, 179.0))).sum::<f64>() / 11.0;
+            format!(",{mean:.5},{board:.2}")
+        });
+        assert_eq!(one(&about), ["follows-board"]);
         // of very many a few
         let many: Vec<String> = (0..20).map(|k| format!("c{k:02}")).collect();
         let many = record(&format!(",{}", many.join(",")), |[n, ..]| {
@@ -296,8 +314,9 @@ mod tests {
 
     #[test]
     fn a_cause_that_switches_is_weighed_though_the_rate_jumps_with_it() {
-        let noise = |n: f64, k: f64| (n * n * k % 101.0) / 101.0 - 0.5;
-        let field = |n: f64| 0.1 * noise(n, 53.0) + if (n / 20.0) as usize % 2 == 0 { 0.0 } else { 7.0 };
+        let noise = |n: f64, k: f64| (n * n * k % 103.0) / 103.0 - 0.5;
+        // its own fluctuations act on the rate, too
+        let field = |n: f64| noise(n, 53.0) + if (n / 20.0) as usize % 2 == 0 { 0.0 } else { 7.0 };
         // beside the rate's own noise of 0.6 deg/h; the filtered reading of that is made from it, and the note says so
         let last = std::cell::Cell::new(0.0);
         let text = |[n, _, _, rate]: [f64; 4]| {
