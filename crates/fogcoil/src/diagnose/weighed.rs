@@ -263,6 +263,11 @@ mod tests {
         check_record(Path::new("r.csv"), format!("time_s,chamber_c,spool_c,rate_deg_per_h{header}\n{rows}"), None, &[]).unwrap()
     }
 
+    /// A number in 0 to 1 that has nothing to do with the next one's.
+    fn random(n: f64) -> f64 {
+        (43758.5453 * (12.9898 * n).sin()).rem_euclid(1.0)
+    }
+
     fn ids(fits: &[RecordCase], holdouts: &[RecordCase]) -> Vec<String> {
         of_columns(fits, holdouts, &[]).iter().map(|own| own.mechanism.id.clone()).collect()
     }
@@ -294,12 +299,14 @@ mod tests {
         });
         assert_eq!(one(&filtered), ["follows-board"]);
         // a mean of eleven readings about each row: no reading of it is of its own row alone
-        let noise = |n: f64| 0.02 * f64::from((n as i32 * n as i32 * 37).rem_euclid(101));
-        let about = record(",about,Board [degC]", |[n, _, board, _]| {
-            let mean = (-5..=5).map(|k| noise((n + f64::from(k)).clamp(0.0, 179.0))).sum::<f64>() / 11.0;
-            format!(",{mean:.5},{board:.2}")
-        });
-        assert_eq!(one(&about), ["follows-board"]);
+        let about = |added: fn(f64) -> f64| {
+            record_with(",about,Board [degC]", added, move |[n, _, board, _]| {
+                let mean = (-5..=5).map(|k| random(n + f64::from(k))).sum::<f64>() / 11.0;
+                format!(",{mean:.5},{board:.2}")
+            })
+        };
+        assert_eq!(one(&about(|n| 20.0 * random(n))), ["follows-board"]);
+        assert_eq!(one(&about(|n| 20.0 * random(n + 500.0))), ["follows-about", "follows-board"]);
         // of very many a few
         let many: Vec<String> = (0..20).map(|k| format!("c{k:02}")).collect();
         let many = record(&format!(",{}", many.join(",")), |[n, ..]| {
@@ -314,9 +321,8 @@ mod tests {
 
     #[test]
     fn a_cause_that_switches_is_weighed_though_the_rate_jumps_with_it() {
-        let noise = |n: f64, k: f64| (n * n * k % 103.0) / 103.0 - 0.5;
         // its own fluctuations act on the rate, too
-        let field = |n: f64| noise(n, 53.0) + if (n / 20.0) as usize % 2 == 0 { 0.0 } else { 7.0 };
+        let field = |n: f64| 3.2 * random(n) + if (n / 20.0) as usize % 2 == 0 { 0.0 } else { 20.0 };
         // beside the rate's own noise of 0.6 deg/h; the filtered reading of that is made from it, and the note says so
         let last = std::cell::Cell::new(0.0);
         let text = |[n, _, _, rate]: [f64; 4]| {
