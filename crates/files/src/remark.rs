@@ -298,9 +298,9 @@ remarks! {
         "The answer is void if it came loose: a heat path is sought, or a fault of the rate, for what the thermometer does.",
         "Look at the thermometer's bond; empty `spool_c` from there on.";
     ChamberJump "chamber-jump":
-        "The chamber's readings go on at another level from one row to the next, and the spool's thermometer goes on as if they had not.",
-        "The answer is void if the sensor moved, or its channel: a drift, or a fault, is sought for heat that was not there.",
-        "Look at the chamber's sensor and its channel; use the rows before it alone, or subtract the jump from the readings behind it.";
+        "The chamber's readings go on at another level from one row to the next, or behind a gap at another than the slopes on either side make of it. `check` notes it whatever the spool does; `diagnose` warns where the spool's thermometer goes on as if they had not.",
+        "A step of the air is no fault. The answer is void if the sensor moved, or its channel: a drift, or a fault, is sought for heat that was not there.",
+        "If the programme has no such step, look at the chamber's sensor and its channel; use the rows before it alone, or subtract the jump from the readings behind it.";
     ReversedRate "reversed-rate":
         "The model follows the recording far better with the rate negated.",
         "The answer is void if the sign is wrong.",

@@ -4,7 +4,7 @@
 
 use crate::common::{Random, even, simulate};
 use recording::noise::NoiseModel;
-use recording::ramp::{Absent, Direction, Estimate, Input, Response, respond};
+use recording::ramp::{Absent, Direction, Estimate, Input, Response, Short, respond};
 
 /// Instants of a programme's corners \[s\] and its temperatures \[degC\].
 type Programme = [(f64, f64)];
@@ -247,6 +247,72 @@ fn hysteresis_needs_rests_at_one_temperature() {
     coverage.holds("hysteresis");
     let once = Record::of(&unit, UP_AND_DOWN, &noise(), 0.01, 7).respond().unwrap();
     assert_eq!(once.hysteresis, Err(Absent::NoRest));
+}
+
+/// Steps of five minutes between temperatures, with rests of so many seconds: 40 and 20 degC, reached from either side, and 0.
+fn steps(rest: f64) -> Vec<(f64, f64)> {
+    let levels = [20.0, 40.0, 60.0, 40.0, 20.0, 0.0, -20.0, 0.0, 20.0];
+    let at = |(n, level): (usize, &f64)| {
+        let start = (rest + 300.0) * n as f64;
+        [(start, *level), (start + rest, *level)]
+    };
+    levels.iter().enumerate().flat_map(at).collect()
+}
+
+/// A unit that settles far more slowly than steps last, beside noise far below what they make: what of a step is left at the rest behind it is no hysteresis.
+/// Rests that are shorter than it settles tell little, or nothing.
+#[test]
+fn what_has_not_settled_is_no_hysteresis() {
+    for (rest, hysteresis) in [(10_800.0, 0.0), (5400.0, 0.1), (1200.0, 0.0)] {
+        let mut coverage = Coverage::default();
+        for seed in 0..4 {
+            let mut random = Random::new(seed + 66_000);
+            let first = 600.0 + 600.0 * random.uniform();
+            let lags = [first, first * (1.1 + 0.9 * random.uniform())];
+            // a cascade of both
+            let amounts = [-162.0 * lags[0] / (lags[0] - lags[1]), 162.0 * lags[1] / (lags[0] - lags[1])];
+            let unit = Unit { lags, heating: amounts, cooling: amounts, rest: [0.0; 2], hysteresis };
+            let found = Record::of(&unit, &steps(rest), &NoiseModel::white(0.011, 60.0), 0.01, seed).respond().unwrap();
+            match found.hysteresis {
+                Ok(found) => {
+                    assert!((found.value - hysteresis).abs() < 3.0 * found.sd, "{rest}: {found:?}");
+                    assert!(found.sd < 0.01 || rest < 3000.0, "{rest}: {found:?}");
+                    coverage.add(found, hysteresis);
+                }
+                Err(Absent::Unsettled(watch)) => assert!(watch.short == Short::Rests && watch.rest < 3000.0, "{watch:?}"),
+                Err(other) => panic!("{other}"),
+            }
+        }
+        let [held, told] = [coverage.0, coverage.1];
+        println!("rests of {rest} s: {held} of {told} intervals hold the truth");
+        assert!((told == 4 || rest < 3000.0) && held + 1 >= told, "{rest}: {held} of {told}");
+    }
+}
+
+/// A record that is too short for its unit says how long its ramps and rests are, which time constants are sought, and what has to be longer.
+#[test]
+fn what_has_not_settled_says_what_has_to_last_longer() {
+    let unit =
+        Unit { lags: [1500.0, 2400.0], heating: [270.0, -432.0], cooling: [270.0, -432.0], rest: [0.0; 2], hysteresis: 0.0 };
+    let of = |programme: &Programme| {
+        let found = Record::of(&unit, programme, &NoiseModel::white(0.01, 60.0), 0.01, 1).respond().unwrap();
+        let Err(Absent::Unsettled(watch)) = found.sensitivity else { panic!("{:?}", found.sensitivity) };
+        (watch, found.sensitivity.unwrap_err().to_string())
+    };
+    let (watch, words) = of(&steps(5400.0));
+    assert!((watch.ramp - 300.0).abs() < 60.0 && (watch.rest - 5400.0).abs() < 180.0 && watch.short == Short::Ramps, "{watch:?}");
+    let lag = (watch.settling / 3.0).round();
+    assert!(
+        (watch.settling - 2.0 * watch.ramp).abs() < 1e-9 && words.starts_with(&format!("responses slower than {lag} s ")),
+        "{words}"
+    );
+    assert!(words.ends_with("; record ramps that last longer"), "{words}");
+    // rests of half an hour between ramps of 20 minutes: the rests end what is seen
+    let corners = [20.0, 60.0, 20.0, -20.0, 20.0, 60.0, 20.0];
+    let at = |(n, t): (usize, &f64)| [(3000.0 * n as f64, *t), (3000.0 * n as f64 + 1800.0, *t)];
+    let (watch, words) = of(&corners.iter().enumerate().flat_map(at).collect::<Vec<_>>());
+    assert!(watch.short == Short::Rests && (watch.settling - watch.rest).abs() < 1e-9, "{watch:?}");
+    assert!(words.ends_with("; record rests that last longer"), "{words}");
 }
 
 /// Value and standard deviation are the same but for a factor.

@@ -113,19 +113,32 @@ fn check_separator(rows: &Rows, format: &RecordFormat) -> Result<(), InputError>
     if rows.count() > 1 {
         return Ok(());
     }
-    let others = [(b';', "semicolons", "';'"), (b'\t', "tabs", "tab"), (b',', "commas", "','"), (b'|', "bars", "'|'")];
-    match others.into_iter().find(|(byte, ..)| *byte != format.dialect.separator && line.as_bytes().contains(byte)) {
-        Some((_, name, flag)) => {
-            let problem = format!("the fields seem to be separated by {name}");
-            Err(rows.fault(
-                None,
-                problem,
-                format!(
-                    "add --separator {flag} (and --decimal-comma if numbers are written like 20,5), or let `fogcoil check RECORD --write-map` \
-                     find how it is written"
-                ),
-            ))
-        }
-        None => Ok(()),
+    let table = rows.sniffed();
+    let preamble = table.as_ref().map_or(0, |table| table.preamble);
+    let [own, said] = [format.dialect.separator, table.as_ref().map_or(0, |table| table.separator_byte())];
+    if preamble > 0 && said == own {
+        let problem = format!("the names of the columns seem to stand in line {}, below a logger's remarks", preamble + 1);
+        return Err(rows.fault(
+            None,
+            problem,
+            format!("let {WRITE_MAP}, or give its preamble_lines: {preamble} in a file for --map"),
+        ));
     }
+    // most rows agree on the table's; the first line alone may be a remark
+    let is_other = |byte: u8| byte != own && if table.is_some() { byte == said } else { line.as_bytes().contains(&byte) };
+    let others = [(b';', "semicolons", "';'"), (b'\t', "tabs", "tab"), (b',', "commas", "','"), (b'|', "bars", "'|'")];
+    let Some((_, name, flag)) = others.into_iter().find(|(byte, ..)| is_other(*byte)) else { return Ok(()) };
+    let problem = format!("the fields seem to be separated by {name}");
+    let flags = format!("--separator {flag} (and --decimal-comma if numbers are written like 20,5)");
+    let remedy = if preamble > 0 {
+        format!(
+            "let {WRITE_MAP}: its names seem to stand in line {}, below a logger's remarks; or add {flags} and skip those",
+            preamble + 1
+        )
+    } else {
+        format!("add {flags}, or let {WRITE_MAP}")
+    };
+    Err(rows.fault(None, problem, remedy))
 }
+
+const WRITE_MAP: &str = "`fogcoil check RECORD --write-map` find how it is written";

@@ -12,6 +12,7 @@ use csv::{ErrorKind, StringRecord, Terminator};
 use super::InputError;
 use super::encoding::{Decoded, Encoding};
 use super::fingerprint::{Fingerprint, Hash};
+use super::sniff::{Sniffed, sniff};
 
 /// Largest table [bytes]: 2 GiB.
 pub(crate) const LARGEST: u64 = 2 << 30;
@@ -336,6 +337,14 @@ impl Rows {
     pub(crate) fn line(&self) -> Option<u32> {
         match &self.source {
             Source::Text(reader) => Some(u32::try_from(reader.position().line().saturating_sub(1).max(1)).unwrap_or(u32::MAX)),
+            Source::Columns { .. } => None,
+        }
+    }
+
+    /// The table in the file that is read, if it shows one.
+    pub(super) fn sniffed(&self) -> Option<Sniffed> {
+        match self.source {
+            Source::Text(_) => sniff(&self.path).ok(),
             Source::Columns { .. } => None,
         }
     }

@@ -33,6 +33,12 @@ pub(super) struct Sniffed {
     pub(super) rows: Vec<Vec<String>>,
 }
 
+impl Sniffed {
+    pub(super) fn separator_byte(&self) -> u8 {
+        SEPARATORS.iter().find(|(_, name)| *name == self.separator).map_or(b',', |(separator, _)| *separator as u8)
+    }
+}
+
 /// Looks at the beginning of a file.
 ///
 /// # Errors

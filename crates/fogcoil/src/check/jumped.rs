@@ -18,8 +18,9 @@ pub(super) fn jumped(case: &RecordCase) -> Option<Note> {
     let all: Vec<_> = jumps(used.time(), &chamber).into_iter().filter(|jump| jump.by.abs() >= WORTH_K).collect();
     let largest = all.first()?;
     let others = if all.len() > 1 { ", and at other times" } else { "" };
+    let beyond = if largest.is_behind_gap { ", in the gap before it and beyond the slopes on either side" } else { "" };
     Some(Remark::ChamberJump.note(format!(
-        "{CHAMBER} jumps by {} K at {} s{others}: a step of the air, or of the sensor, which diagnose tells by the spool",
+        "{CHAMBER} jumps by {} K at {} s{beyond}{others}: a step of the air, or of the sensor, which diagnose tells by the spool",
         significant(largest.by, 2),
         Seconds(used.time()[largest.row])
     )))

@@ -6,7 +6,7 @@ use std::path::Path;
 use bias::units::S_PER_H;
 use files::{Note, Remark};
 use recording::Seconds;
-use recording::check::{Finding, FindingKind, Severity};
+use recording::check::{Finding, FindingKind, Gap, Severity};
 use recording::noise::{StandardErrors, Term};
 
 use super::{Analysis, GyroNoise, NO_MAXIMUM};
@@ -223,8 +223,16 @@ pub fn unreadable(file: &Path, why: &str) -> [String; 7] {
     [files::shown_path(file), UNUSABLE.into(), none(), none(), none(), none(), place.unwrap_or_else(|| why.to_owned())]
 }
 
+/// The longest gap, and how many there are, in words; `None` without one.
+fn gaps(gaps: &[Gap]) -> Option<String> {
+    let longest = gaps.iter().map(|gap| gap.to - gap.from).max_by(f64::total_cmp)?;
+    let unit = DurationUnit::of(longest);
+    let length = format!("{} {}", significant(unit.of_seconds(longest), 2), unit.name);
+    Some(if gaps.len() == 1 { format!("gap {length}") } else { format!("{} gaps up to {length}", gaps.len()) })
+}
+
 impl Analysis<'_> {
-    /// The recording's line among others: rows, span, interval, angle random walk, and the ids of its warnings.
+    /// The recording's line among others: rows, span, interval, angle random walk, the ids of its warnings, and its gaps.
     pub fn line(&self) -> [String; 7] {
         let Self { case, notes, noise } = self;
         let file = &case.fingerprint.file;
@@ -247,6 +255,8 @@ impl Analysis<'_> {
         let severe = case.report.findings.iter().filter(worth);
         let mut warnings: Vec<&str> = notes.chain(severe.map(|finding| Remark::of_finding(&finding.kind).id())).collect();
         warnings.dedup();
+        let gaps = instants.and_then(|instants| gaps(&instants.gaps));
+        let remarks: Vec<&str> = warnings.into_iter().chain(gaps.as_deref()).collect();
         [
             files::shown_path(file),
             "usable".into(),
@@ -254,7 +264,7 @@ impl Analysis<'_> {
             span,
             number(instants.map(|instants| instants.interval), 4),
             number(walk, 3),
-            warnings.join(", "),
+            remarks.join(", "),
         ]
     }
 }

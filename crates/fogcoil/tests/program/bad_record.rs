@@ -39,6 +39,18 @@ fn columns_and_dialects_that_were_not_declared() {
         &[],
         &["r.csv:1: the fields seem to be separated by semicolons", "--separator ';'", "--decimal-comma"],
     );
+    // a semicolon in a logger's remark separates nothing
+    let remarks = "ACME DAQ 7; serial 99123\nOperator: MK\n";
+    refuse(
+        format!("{remarks}time_s,chamber_c,rate_deg_per_h\n0,20,0.1\n30,20,0.2\n"),
+        &[],
+        &["r.csv:1: the names of the columns seem to stand in line 3", "--write-map", "preamble_lines: 2"],
+    );
+    refuse(
+        format!("{remarks}time_s\tchamber_c\trate_deg_per_h\n0\t20\t0.1\n"),
+        &[],
+        &["r.csv:1: the fields seem to be separated by tabs", "--write-map", "line 3", "--separator tab"],
+    );
     refuse("time_s\trate_deg_per_h\n0\t1\n", &[], &["r.csv:1: ", "tabs", "--separator tab"]);
     refuse("time_s,rate_deg_per_h\n0,1\n", &["--separator", ";"], &["r.csv:1: ", "commas", "--separator ','"]);
     refuse(

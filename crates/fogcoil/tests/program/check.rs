@@ -134,6 +134,28 @@ fn text_json_and_picture() {
     assert!(json["noise"]["allan"].as_array().unwrap().len() > 10);
 }
 
+/// Rows that are missing in a ramp are a gap and no jump of the chamber; a jump inside a gap is told as one.
+#[test]
+fn a_ramp_over_a_gap_is_no_jump() {
+    let case = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/concealed/open/case_13/fit.csv");
+    let whole = std::fs::read_to_string(case).unwrap();
+    let folder = Folder::new();
+    folder.write("ramp.csv", &whole);
+    let text = stdout(&folder.run(&["check", "ramp.csv"]));
+    assert!(text.contains("gap") && !text.contains("jumps"), "{text}");
+    // the same with a chamber that is 4 K colder from the gap on
+    let colder = |line: &str| {
+        let fields: Vec<&str> = line.split(',').collect();
+        match (fields[0].parse::<f64>(), fields[1].parse::<f64>()) {
+            (Ok(time), Ok(chamber)) if time > 35_000.0 => format!("{time},{:.2},{},{}\n", chamber - 4.0, fields[2], fields[3]),
+            _ => format!("{line}\n"),
+        }
+    };
+    folder.write("jump.csv", whole.lines().map(colder).collect::<String>());
+    let text = stdout(&folder.run(&["check", "jump.csv"]));
+    assert!(text.contains(" K at 35280 s, in the gap before it and beyond the slopes on either side: "), "{text}");
+}
+
 #[test]
 fn several_recordings_have_a_line_each() {
     let folder = Folder::new();
@@ -146,6 +168,17 @@ fn several_recordings_have_a_line_each() {
     let line = |name: &str| text.lines().find(|line| line.starts_with(name)).unwrap_or_else(|| panic!("{name}: {text}"));
     assert!(line("lot/a.csv").contains("usable") && line("lot/U2/b.csv").contains(" 700 "), "{text}");
     assert_eq!(text.lines().count(), 3, "{text}");
+    // a gap has a word in the line, of several the longest
+    let kept = |gaps: &[std::ops::Range<usize>]| -> Vec<_> {
+        rows(600).into_iter().enumerate().filter(|(n, _)| !gaps.iter().any(|gap| gap.contains(n))).map(|(_, row)| row).collect()
+    };
+    std::fs::create_dir_all(folder.path("gaps")).unwrap();
+    folder.write("gaps/one.csv", standard(&kept(&[100..129])));
+    folder.write("gaps/two.csv", standard(&kept(&[100..129, 300..301])));
+    let text = stdout(&folder.run(&["check", "gaps"]));
+    let line = |name: &str| text.lines().find(|line| line.starts_with(name)).unwrap_or_else(|| panic!("{name}: {text}"));
+    assert!(line("gaps/one.csv").trim_end().ends_with("gap 15 min"), "{text}");
+    assert!(line("gaps/two.csv").trim_end().ends_with("2 gaps up to 15 min"), "{text}");
     // one that cannot be used does not hide the others
     folder.write("lot/c.csv", "time_s,rate_deg_per_h\n0,nan\n");
     let output = folder.run(&["check", "lot", "--json"]);

@@ -1,5 +1,6 @@
 //! Reasons why a number cannot be determined.
 
+use super::lags::SETTLED;
 use crate::{Error, Seconds};
 
 /// Reason why a record does not determine a number.
@@ -33,8 +34,8 @@ pub enum Absent {
     )]
     Indistinct,
     /// The response settles more slowly than the ramps and rests last.
-    #[error("responses slower than a third of the longest ramp or rest, which lasts {} s, change it, or the sensitivity beside it, by more than its errors: the unit may not have settled; record ramps and rests that last longer", Seconds(*.0))]
-    Unsettled(f64),
+    #[error("responses slower than {lag} s change it, or the sensitivity beside it, by more than its errors: the unit may not have settled; {watch}", lag = Seconds(.0.lag()), watch = .0)]
+    Unsettled(Watch),
     /// No temperature is held after heating and after cooling.
     #[error(
         "no temperature is held after heating and after cooling too; record rests at one temperature, reached from either side"
@@ -43,6 +44,57 @@ pub enum Absent {
     /// The noise cannot be identified.
     #[error("{0}")]
     Noise(#[from] Error),
+}
+
+/// How long responses are seen to settle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Watch {
+    /// Longest ramp \[s\].
+    pub ramp: f64,
+    /// Longest rest \[s\]; 0 without one.
+    pub rest: f64,
+    /// So long is a response taken to be seen \[s\].
+    pub settling: f64,
+    /// What would have to last longer.
+    pub short: Short,
+}
+
+/// What ends the time over which responses are seen to settle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Short {
+    /// The ramp, which no rest exceeds.
+    Both,
+    /// The rest.
+    Rests,
+    /// The ramp: the rest is longer than it can tell of.
+    Ramps,
+}
+
+impl Watch {
+    /// Longest time constant that is sought, in whole seconds.
+    fn lag(&self) -> f64 {
+        (self.settling / SETTLED).round()
+    }
+
+    /// The same where a bias at rest is sought: a rest tells of it however short the ramp.
+    pub(super) fn at_rest(self) -> Self {
+        if self.rest > self.settling { Self { settling: self.rest, short: Short::Rests, ..self } } else { self }
+    }
+}
+
+impl std::fmt::Display for Watch {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (why, remedy) = match self.short {
+            Short::Both => ("a third of the longest ramp", "ramps or rests"),
+            Short::Rests => ("a third of the longest rest", "rests"),
+            Short::Ramps => ("two thirds of its ramp, in which a slower response hardly begins", "ramps"),
+        };
+        write!(f, "time constants are sought up to {why}: the longest ramp lasts about {} s", Seconds(self.ramp.round()))?;
+        if self.rest > 0.0 {
+            write!(f, ", the longest rest {} s", Seconds(self.rest.round()))?;
+        }
+        write!(f, "; record {remedy} that last longer")
+    }
 }
 
 /// Direction of a temperature.

@@ -1,6 +1,6 @@
 //! A temperature's course as heating and cooling.
 
-use super::absent::Direction;
+use super::absent::{Direction, Short, Watch};
 use crate::statistics::median;
 
 /// Range, of noise, from which a movement is none of it: white noise has turns of seven standard deviations among thousands of rows.
@@ -82,12 +82,20 @@ impl Course {
         self.branches.iter().any(|branch| branch.direction == direction && branch.travel > RAMP * threshold)
     }
 
-    /// How long a response is seen to settle \[s\]: a ramp, or a rest up to [`WATCHED`] times as long, of the branches that go at least half as far as
-    /// the farthest.
-    pub(super) fn settling(&self) -> Option<f64> {
+    /// How long a response is seen to settle: a ramp, or a rest up to [`WATCHED`] times as long, of the branches that go at least half as far as the
+    /// farthest.
+    pub(super) fn watched(&self) -> Option<Watch> {
         let farthest = self.branches.iter().map(|branch| branch.travel).fold(0.0, f64::max);
-        let far = self.branches.iter().filter(|branch| branch.travel >= 0.5 * farthest && branch.travel > 0.0);
-        far.map(|branch| branch.ramp.max(branch.rest.min(WATCHED * branch.ramp))).max_by(f64::total_cmp)
+        let far = || self.branches.iter().filter(|branch| branch.travel >= 0.5 * farthest && branch.travel > 0.0);
+        let seen = |branch: &Branch| branch.ramp.max(branch.rest.min(WATCHED * branch.ramp));
+        let longest = far().max_by(|a, b| seen(a).total_cmp(&seen(b)))?;
+        let short = match longest.rest {
+            rest if rest <= longest.ramp => Short::Both,
+            rest if rest <= WATCHED * longest.ramp => Short::Rests,
+            _ => Short::Ramps,
+        };
+        let most = |of: fn(&Branch) -> f64| far().map(of).fold(0.0, f64::max);
+        Some(Watch { ramp: most(|branch| branch.ramp), rest: most(|branch| branch.rest), settling: seen(longest), short })
     }
 }
 
@@ -142,9 +150,25 @@ fn branch(direction: Direction, from: usize, end: usize, time: &[f64], temperatu
     };
     let dwells: Vec<f64> = (1..LEVELS - 1).map(|level| passes(level + 1) - passes(level)).collect();
     let most = RESTS * median(dwells.clone()).unwrap_or(0.0);
-    // the levels at either end hold part of a rest each
-    let ramp = |run: &[f64]| run.iter().sum::<f64>() * (run.len() + 2) as f64 / run.len() as f64;
-    let ramps = dwells.split(|dwell| *dwell > most).filter(|run| !run.is_empty()).map(ramp);
+    // where a rest lies between two levels, as a share of the way from one to the other
+    let lies = |number: usize| {
+        let span = passes(number + 1)..=passes(number + 2);
+        let within = |row: &usize| span.contains(&time[*row]);
+        let rest = median((from..=end).filter(within).map(way).collect()).unwrap_or(0.0);
+        (rest / travel * LEVELS as f64 - (number + 1) as f64).clamp(0.0, 1.0)
+    };
+    // from the first dwell of a run to the one behind it; the levels at either end hold part of a rest each
+    let ramp = |first: usize, behind: usize| {
+        let before = first.checked_sub(1).map_or(1.0, |rest| 1.0 - lies(rest));
+        let after = if behind < dwells.len() { lies(behind) } else { 1.0 };
+        // and so may the dwells beside a rest
+        let [from, to] = [first + usize::from(first > 0), behind - usize::from(behind < dwells.len())];
+        let told = dwells.get(from..to).filter(|told| !told.is_empty()).unwrap_or(&dwells[first..behind]);
+        told.iter().sum::<f64>() / told.len() as f64 * ((behind - first) as f64 + before + after)
+    };
+    let is_ramp = |number: usize| dwells[number] <= most;
+    let firsts = (0..dwells.len()).filter(|&n| is_ramp(n) && (n == 0 || !is_ramp(n - 1)));
+    let ramps = firsts.map(|first| ramp(first, (first..dwells.len()).find(|&n| !is_ramp(n)).unwrap_or(dwells.len())));
     let ends = [passes(1) - time[from], time[end] - passes(LEVELS - 1)];
     let rest = dwells.iter().chain(&ends).copied().filter(|dwell| *dwell > most).fold(0.0, f64::max);
     Branch { direction, end, travel, ramp: ramps.fold(0.0, f64::max), rest }
@@ -167,7 +191,7 @@ mod tests {
         assert!((course.branches[0].travel - 40.0).abs() < 1.4 && (course.branches[1].travel - 20.0).abs() < 1.4, "{course:?}");
         assert!((course.branches[0].ramp - 100.0).abs() < 3.0 && (course.branches[0].rest - 105.0).abs() < 10.0, "{course:?}");
         assert!((course.branches[1].ramp - 50.0).abs() < 3.0 && (course.branches[1].rest - 103.0).abs() < 10.0, "{course:?}");
-        assert_eq!(course.settling(), Some(course.branches[0].rest));
+        assert_eq!(course.watched().map(|watch| watch.settling), Some(course.branches[0].rest));
         let side = [20, 100, 240, 280, 399].map(|row| course.side[row]);
         assert!(side[0].abs() < 0.02 && (side[1] - 0.5).abs() < 0.02 && (side[2] - 0.5).abs() < 0.02, "{side:?}");
         assert!((side[3] + 0.1).abs() < 0.02 && (side[4] + 0.5).abs() < 0.02, "{side:?}");
@@ -194,7 +218,22 @@ mod tests {
         let way = |t: f64| 0.4 * (t - 50.0).clamp(0.0, 200.0) + 0.4 * (t - 650.0).clamp(0.0, 100.0);
         let course = Course::new(&time, &time.iter().map(|t| way(*t)).collect::<Vec<_>>(), 2.0);
         assert_eq!(course.branches.len(), 1);
-        assert!((course.branches[0].ramp - 200.0).abs() < 20.0 && (course.branches[0].rest - 400.0).abs() < 20.0, "{course:?}");
+        assert!((course.branches[0].ramp - 200.0).abs() < 2.0 && (course.branches[0].rest - 400.0).abs() < 20.0, "{course:?}");
+    }
+
+    /// Rests at levels that the way is divided by, beside noise: 80 K down in steps of 20 K, of 300 s each, with rests of an hour.
+    #[test]
+    fn ramps_between_rests_last_as_long_as_they_do() {
+        let time: Vec<f64> = (0..551).map(|row| 30.0 * f64::from(row)).collect();
+        let steps = |t: f64| (0..4).map(|n| 20.0 / 300.0 * (t - 900.0 - 3900.0 * f64::from(n)).clamp(0.0, 300.0)).sum::<f64>();
+        for seed in 0..8 {
+            let noise = |t: f64| 0.01 * (t * 12.9898 + f64::from(seed)).sin();
+            let temperature: Vec<f64> = time.iter().map(|t| 60.0 - steps(*t) + noise(*t)).collect();
+            let course = Course::new(&time, &temperature, 1.6);
+            let watch = course.watched().expect("a course");
+            assert!((watch.ramp - 300.0).abs() < 30.0 && (watch.rest - 3600.0).abs() < 120.0, "{watch:?}");
+            assert!(watch.settling == WATCHED * watch.ramp && watch.short == Short::Ramps, "{watch:?}");
+        }
     }
 
     #[test]
@@ -202,6 +241,6 @@ mod tests {
         let time: Vec<f64> = (0..100).map(f64::from).collect();
         let noise: Vec<f64> = time.iter().map(|t| (t * 12.9898).sin()).collect();
         let course = Course::new(&time, &noise, threshold(2.0, 0.7, 0.0));
-        assert!(course.branches.is_empty() && course.settling().is_none() && !course.ramps(Direction::Heating, 7.0));
+        assert!(course.branches.is_empty() && course.watched().is_none() && !course.ramps(Direction::Heating, 7.0));
     }
 }

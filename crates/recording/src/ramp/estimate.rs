@@ -25,7 +25,15 @@ impl Estimate {
     }
 }
 
+/// Standard deviations from which a difference counts: noise alone makes it in one record of a hundred.
+const SIGNIFICANT: f64 = 2.576;
+
 impl Estimate {
+    /// Whether it differs from another by more than the errors of both.
+    pub(super) fn differs(self, other: Self) -> bool {
+        (self.value - other.value).abs() > SIGNIFICANT * self.sd.hypot(other.sd)
+    }
+
     /// Of a mixture: probabilities that add up to 1, each with value and standard deviation.
     pub(super) fn mixed(each: &[(f64, f64, f64)]) -> Self {
         let value = each.iter().map(|(p, value, _)| p * value).sum::<f64>();

@@ -2,6 +2,7 @@
 
 use super::absent::Absent;
 use super::branches::Course;
+use super::design::Design;
 use super::estimate::Estimate;
 use super::model::{Model, Observed};
 
@@ -14,9 +15,18 @@ const CAME: f64 = 0.1;
 /// Fewest rows of a rest.
 const FEWEST: usize = 10;
 
-/// Reached from below, less reached from above, beside all that a model holds.
-pub(super) fn hysteresis(model: &Model, course: &Course, observed: Observed) -> Result<Estimate, Absent> {
-    let design = &model.design;
+/// Reached from below, less reached from above: the amount of the last column, which is that of [`beside`].
+pub(super) fn hysteresis(model: &Model) -> Result<Estimate, Absent> {
+    model.sum(&vec![(model.design.columns.len() - 1, 1.0)])
+}
+
+/// A design with the side from which a temperature was reached.
+pub(super) fn beside(design: &Design, course: &Course) -> Design {
+    design.with(course.side.clone())
+}
+
+/// Whether rests lie at one temperature after either direction.
+pub(super) fn rests(design: &Design, course: &Course, observed: Observed) -> bool {
     let rates = design.slowest_rate();
     let largest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
     let rests = |side: f64| -> Vec<f64> {
@@ -27,11 +37,7 @@ pub(super) fn hysteresis(model: &Model, course: &Course, observed: Observed) -> 
         found
     };
     let [below, above] = [rests(0.5), rests(-0.5)];
-    if shared(&below, &above) < FEWEST || shared(&above, &below) < FEWEST {
-        return Err(Absent::NoRest);
-    }
-    let with = Model::new(design.with(course.side.clone()), observed)?;
-    with.sum(&vec![(design.columns.len(), 1.0)])
+    shared(&below, &above) >= FEWEST && shared(&above, &below) >= FEWEST
 }
 
 /// Number of values that have one of the others beside them; both lists are sorted.

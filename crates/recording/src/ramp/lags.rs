@@ -3,7 +3,7 @@
 use super::absent::Absent;
 
 /// A response three time constants into a ramp is 95 % of what it settles at: the longest is a third of that.
-const SETTLED: f64 = 3.0;
+pub(super) const SETTLED: f64 = 3.0;
 /// A time constant is half of the one before: less far apart they can hardly be told from each other, farther apart they miss what lies between.
 const RATIO: f64 = 2.0;
 const MOST: usize = 8;

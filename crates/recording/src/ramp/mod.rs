@@ -11,6 +11,10 @@
 //! stand an offset, a parabola in the temperature (**span**: what it changes by over the record's range), and what settles from the state in which the
 //! record begins.
 //!
+//! A **hysteresis** is sought beside all lags up to a third of the longest rest, in one set: a response that hardly begins in a short ramp is seen at the rest
+//! behind it, where what is left of it depends on the side from which the rest was reached. What longer ones change of it counts as an error; if that is more than noise
+//! explains, none is told.
+//!
 //! Noise is identified beside these columns by restricted likelihood, and amounts and errors are those of generalised least squares under every
 //! noise model that the likelihood does not exclude, weighed by it: coloured noise widens the intervals. Offsets, the origin of time and the unit of
 //! the channel change nothing.
@@ -24,14 +28,14 @@ mod input;
 mod lags;
 mod model;
 
-pub use absent::{Absent, Direction};
+pub use absent::{Absent, Direction, Short, Watch};
 pub use estimate::Estimate;
 pub use input::Input;
 
 use crate::noise::NoiseEstimate;
 use branches::Course;
 use design::{Design, Weights};
-use model::{Model, Observed};
+use model::{Model, Observed, over};
 
 /// A sum of amounts that a design has.
 type Sum<'a> = &'a dyn Fn(&Design) -> Result<Weights, Absent>;
@@ -76,18 +80,19 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     let threshold = branches::threshold(range, noise, step);
     let course = Course::new(input.time, input.drive, threshold);
     let [heats, cools] = [Direction::Heating, Direction::Cooling].map(|direction| course.ramps(direction, threshold));
-    let Some(settling) = course.settling().filter(|_| heats || cools) else {
+    let Some(watch) = course.watched().filter(|_| heats || cools) else {
         return Err(Absent::Still { range, needed: branches::RAMP * threshold });
     };
-    let rate = root_mean_square(&design::lagging_rate(input.time, input.drive, settling, input.interval));
     let observed = Observed { time: input.time, values: input.values, mask: input.mask, averaging: input.averaging };
-    let model = |lags: &Vec<f64>| Model::new(Design::new(input, &course, lags, heats, cools), observed);
-    let sets = lags::sets(settling, rate, noise, input.interval)?;
-    let models: Vec<Model> = sets.iter().map(model).collect::<Result<_, _>>()?;
-    let slower = lags::slower(&sets[0]);
-    let slower = Model::new(Design::new(input, &course, &slower, heats, cools), observed)?;
-    let slow = slow(&models, &slower);
-    let not_settled = || Err(Absent::Unsettled(settling.round()));
+    let design = |lags: &[f64]| Design::new(input, &course, lags, heats, cools);
+    let sets_of = |settling: f64| {
+        let rate = root_mean_square(&design::lagging_rate(input.time, input.drive, settling, input.interval));
+        lags::sets(settling, rate, noise, input.interval)
+    };
+    let sets = sets_of(watch.settling)?;
+    let models: Vec<Model> = sets.iter().map(|lags| Model::new(design(lags), observed)).collect::<Result<_, _>>()?;
+    let slow = slow(&models, &Model::new(design(&lags::slower(&sets[0])), observed)?);
+    let not_settled = || Err(Absent::Unsettled(watch));
     let found = |of: Sum| over(&models, |model| model.told(&of(&model.design)?, noise));
     let coarse = |of: Sum| {
         let found = found(of)?;
@@ -97,15 +102,15 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     let finer = finer(
         &models,
         |lags, size| {
-            let design = Design::new(input, &course, lags, heats, cools);
+            let design = design(lags);
             let known = design.apart(size);
             Model::within(design, observed, &known)
         },
         &lags::finer(&sets),
     );
     let fine = |of: Sum| {
-        let (finer, change) = finer.as_ref().ok_or(Absent::Indistinct)?;
-        let found = finer.told(&of(&finer.design)?, noise)?;
+        let (model, change) = finer.as_ref().ok_or(Absent::Indistinct)?;
+        let found = model.told(&of(&model.design)?, noise)?;
         Ok::<_, Absent>(Estimate { sd: found.sd.hypot(*change), ..found })
     };
     let figures: [Sum; 3] = [&|design| Ok(design.sensitivity()), &|design| design.towards(Direction::Heating), &|design| {
@@ -113,7 +118,7 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     }];
     // so many amounts may follow what is no lag, as a hysteresis: they then contradict the sets
     let both = |of: Sum| Some((fine(of).ok()?, coarse(of).ok()?));
-    let agrees = |of: &Sum| both(*of).is_none_or(|(fine, coarse)| (fine.value - coarse.value).abs() < SIGNIFICANT * coarse.sd);
+    let agrees = |of: &Sum| both(*of).is_none_or(|(fine, coarse)| (fine.value - coarse.value).abs() < AGREES * coarse.sd);
     let is_finer = both(figures[0]).is_some_and(|(fine, coarse)| fine.sd < WORTH * coarse.sd) && figures.iter().all(agrees);
     let told = |of: Sum| {
         let coarse = coarse(of)?;
@@ -121,6 +126,29 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     };
     // the change is that of the sensitivity, and no error of a difference, or of a bias at rest
     let settled = |found: Estimate| if matches!(slow, Slow::By(0.0)) { Ok(found) } else { not_settled() };
+    let hysteresis = || {
+        if !models.iter().all(|model| hysteresis::rests(&model.design, &course, observed)) {
+            return Err(Absent::NoRest);
+        }
+        // a response that hardly begins in a ramp is still seen at the rest behind it
+        let watch = watch.at_rest();
+        let sets = sets_of(watch.settling)?;
+        let within = |lags: &[f64], size: Option<f64>| {
+            let design = hysteresis::beside(&design(lags), &course);
+            let known = size.map_or(Vec::new(), |size| design.apart(size));
+            Model::within(design, observed, &known)
+        };
+        let models: Vec<Model> = sets.iter().map(|lags| within(lags, None)).collect::<Result<_, _>>()?;
+        let size = size(&models).ok_or(Absent::Indistinct)?;
+        let lags = lags::finer(&sets);
+        let of = |lags: &[f64]| hysteresis::hysteresis(&within(lags, Some(size))?);
+        let [found, other] = [of(&lags)?, of(&lags::slower(&lags))?];
+        // what has not settled at a rest depends on the side from which it was reached
+        if found.differs(other) {
+            return Err(Absent::Unsettled(watch));
+        }
+        Ok(Estimate { sd: found.sd.hypot(other.value - found.value), ..found })
+    };
     let sensitivity = told(figures[0]);
     // of terms that cannot be told apart no sum over temperatures is known either
     let apart = if sensitivity == Err(Absent::Indistinct) { Err(Absent::Indistinct) } else { Ok(()) };
@@ -128,7 +156,7 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
         heating: told(figures[1]),
         cooling: told(figures[2]),
         asymmetry: if is_finer { fine(&Design::asymmetry) } else { found(&Design::asymmetry).and_then(settled) },
-        hysteresis: over(&models, |model| hysteresis::hysteresis(model, &course, observed)),
+        hysteresis: hysteresis(),
         span: apart.clone().and_then(|()| span(&models)).and_then(settled),
         peak: apart.and_then(|()| peak(&models, input)),
         sensitivity,
@@ -146,14 +174,16 @@ enum Slow {
     By(f64),
 }
 
+/// Size of an amount in a set of all lags; `None` where the sensitivity is not told.
+fn size(models: &[Model]) -> Option<f64> {
+    let mean = over(models, |model| model.sum(&model.design.sensitivity())).ok()?;
+    Some(AMOUNT * mean.value.abs().max(mean.sd)).filter(|size| *size > 0.0)
+}
+
 /// The model of all `lags` in one set, with the change of its sensitivity by longer ones; `None` where that is not told, or changes by more than an error. Amounts
 /// beside each other nearly cancel, so each is taken to be off their mean by a few times the sensitivity: `of` makes the model with that size.
 fn finer(models: &[Model], of: impl Fn(&[f64], f64) -> Result<Model, Absent>, lags: &[f64]) -> Option<(Model, f64)> {
-    let mean = over(models, |model| model.sum(&model.design.sensitivity())).ok()?;
-    let size = AMOUNT * mean.value.abs().max(mean.sd);
-    if size <= 0.0 {
-        return None;
-    }
+    let size = size(models)?;
     let (finer, slower) = (of(lags, size).ok()?, of(&lags::slower(lags), size).ok()?);
     match slow(std::slice::from_ref(&finer), &slower) {
         Slow::By(change) => Some((finer, change)),
@@ -166,7 +196,7 @@ fn slow(models: &[Model], slower: &Model) -> Slow {
     let other = slower.sum(&slower.design.sensitivity());
     let Ok((mean, other)) = mean.and_then(|mean| Ok((mean, other?))) else { return Slow::By(0.0) };
     let change = (other.value - mean.value).abs();
-    if change <= SIGNIFICANT * mean.sd.hypot(other.sd) {
+    if !mean.differs(other) {
         Slow::By(0.0)
     } else if change <= MOST_SLOW * mean.value.abs() {
         Slow::By(change)
@@ -175,8 +205,8 @@ fn slow(models: &[Model], slower: &Model) -> Slow {
     }
 }
 
-/// Standard deviations from which a change of the sensitivity counts: noise alone makes it in one record of a hundred.
-const SIGNIFICANT: f64 = 2.576;
+/// Errors of the sets by which the finer one may differ from them.
+const AGREES: f64 = 2.576;
 /// Error of a set whose time constants are halves of each other, as a share of the sensitivity (1σ): of coils it misses 0.2 to 1.8 % by what lies between, of
 /// two lags in a row 1 to 6 %. All lags in one set miss a tenth of a per cent or less.
 const BETWEEN: f64 = 0.02;
@@ -186,13 +216,6 @@ const WORTH: f64 = 0.5;
 const AMOUNT: f64 = 3.0;
 /// Largest change by longer lags, as a share of the sensitivity, that counts as an error: a specification is read to a tenth.
 const MOST_SLOW: f64 = 0.1;
-
-/// The mean over models that are as probable as each other: what they differ by counts as an error.
-fn over(models: &[Model], of: impl Fn(&Model) -> Result<Estimate, Absent>) -> Result<Estimate, Absent> {
-    let share = 1.0 / models.len() as f64;
-    let each = models.iter().map(|model| of(model).map(|estimate| (share, estimate.value, estimate.sd)));
-    Ok(Estimate::mixed(&each.collect::<Result<Vec<_>, _>>()?))
-}
 
 /// Largest less least of the parabola over the temperature: between the ends, or an end and its vertex.
 fn span(models: &[Model]) -> Result<Estimate, Absent> {

@@ -75,6 +75,13 @@ impl Model {
     }
 }
 
+/// The mean over models that are as probable as each other: what they differ by counts as an error.
+pub(super) fn over(models: &[Model], of: impl Fn(&Model) -> Result<Estimate, Absent>) -> Result<Estimate, Absent> {
+    let share = 1.0 / models.len() as f64;
+    let each = models.iter().map(|model| of(model).map(|estimate| (share, estimate.value, estimate.sd)));
+    Ok(Estimate::mixed(&each.collect::<Result<Vec<_>, _>>()?))
+}
+
 /// The candidates of an identified noise with their probabilities e^(−BIC/2) (Schwarz 1978; Hoeting et al. 1999), the best one spread over the errors of
 /// its parameters.
 fn noises(noise: &NoiseEstimate) -> Vec<(f64, NoiseModel)> {
