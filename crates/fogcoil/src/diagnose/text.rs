@@ -311,7 +311,7 @@ impl Outcome<'_> {
             );
         }
         if self.in_place_of_all().is_some() {
-            let confirmed = if proven { " A record that was held out confirms the size of the effect." } else { "" };
+            let confirmed = if proven { format!(" {}.", self.confirmed()) } else { String::new() };
             return format!(
                 "seek the cause among the known physics of the law's form; no mechanism with a name is likely, so no inspection for one is called \
                  for.{confirmed}"
@@ -342,13 +342,17 @@ impl Outcome<'_> {
                 let [is, it] = if several { ["are", "them"] } else { ["is", "it"] };
                 match self.law_in_place() {
                     Some(_) if self.told_names().len() < self.names().len() => format!(
-                        "inspect the unit for {names}. A record that was held out confirms the size of the effect; what acts beside {names} is best \
-                         described by a law that nobody listed: seek its cause among the known physics of that form."
+                        "inspect the unit for {names}. {}; what acts beside {names} is best described by a law that nobody listed: seek its cause among the \
+                         known physics of that form.",
+                        self.confirmed()
                     ),
                     Some(_) => format!(
-                        "inspect the unit for {names}. A record that was held out confirms the size of the effect; it does not tell {names} from a \
-                         law that nobody listed, which only the inspection does."
+                        "inspect the unit for {names}. {}; it does not tell {names} from a law that nobody listed, which only the inspection does.",
+                        self.confirmed()
                     ),
+                    None if self.far_in_held().is_some() => {
+                        format!("inspect the unit. Only {names} {is} left. {}: something else is at work there, too.", self.confirmed())
+                    }
                     None => format!("inspect the unit. Only {names} {is} left, and a record that was held out confirms {it}."),
                 }
             }
@@ -394,6 +398,19 @@ impl Outcome<'_> {
             }
             Verdict::None => "no test is needed to explain these records.".into(),
         }
+    }
+
+    /// The part that a record held out has in an explanation that predicts it better: it confirms the size, unless the residual is far more than noise.
+    fn confirmed(&self) -> String {
+        self.far_in_held().map_or_else(
+            || "A record that was held out confirms the size of the effect".to_owned(),
+            |over| {
+                format!(
+                    "A record that was held out is predicted better so, but {} times the noise of its rate is left in it",
+                    significant(over, 2)
+                )
+            },
+        )
     }
 
     /// Of several mechanisms that are left and that no chamber's programme tells apart, one whose law names a column of the records, with the column.
