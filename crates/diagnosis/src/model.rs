@@ -136,6 +136,12 @@ pub trait ForwardModel {
         None
     }
 
+    /// Whether a nuisance acts on what mechanisms add as it does on the nominal response, such as a delay of all that is read: its effect is another one
+    /// beside a mechanism, however small the mechanism's change of the nominal system is.
+    fn acts_on_mechanisms(&self, _nuisance: usize) -> bool {
+        false
+    }
+
     /// Response of every channel, `[channel][row]`, at the instants of a record, with nuisances at given values and mechanisms at work.
     ///
     /// # Errors

@@ -135,7 +135,7 @@ pub fn settled<M: ForwardModel>(
     }
     let recalibrated = alone.settled()?;
     let Led { fit: leading, gain, .. } =
-        leader(alone.here(), records, observations, Some(&recalibrated), &candidates(model, true))?;
+        leader(alone.here(), records, observations, Some(&recalibrated), (&candidates(model, true), true))?;
     // constants that had to go far may stand for a mechanism that is near the drawing: about them it does not show
     let suspect = leading.hypothesis.mechanisms.first().map(|(mechanism, _)| (*mechanism, gain));
     if gain <= MATTERS && strain(model, &recalibrated) <= STRAINED {
@@ -225,10 +225,13 @@ impl<M: ForwardModel> Way<'_, M> {
         }
         // who leads is settled after two rounds
         let among = match &self.known {
-            Some(known) if self.rounds > 1 => vec![known.hypothesis.clone()],
+            Some(known) if self.rounds >= TRIED => vec![known.hypothesis.clone()],
             _ => self.only.clone().map_or_else(|| candidates(self.model, mechanisms), |only| vec![only]),
         };
-        let Led { fit, rivals, .. } = leader(self.here(), self.records, self.observations, self.known.as_ref(), &among)?;
+        // who leads is known by then, and has begun anew in the noise that it left, too: that of a poor fit is large, and hides what keeps it from a better one
+        let is_tried = self.rounds >= TRIED;
+        let Led { fit, rivals, .. } =
+            leader(self.here(), self.records, self.observations, self.known.as_ref(), (&among, !is_tried))?;
         let next = self.here().about(&fit.nuisances[0], &fit.active).map_err(Error::Model)?;
         rivals.into_iter().for_each(|rival| {
             if !self.rivals.contains(&rival) {
@@ -237,7 +240,7 @@ impl<M: ForwardModel> Way<'_, M> {
         });
         self.known = Some(fit);
         self.rounds += 1;
-        self.arrived = next.is_none() || self.rounds == ROUNDS;
+        self.arrived = next.is_none() && (among.is_empty() || self.rounds >= TRIED) || self.rounds == ROUNDS;
         self.about = next.or(self.about.take());
         Ok(())
     }
@@ -245,7 +248,7 @@ impl<M: ForwardModel> Way<'_, M> {
     /// The likeliest under the model as it is here, with its own noise.
     fn settled(&self) -> Result<Fit, Error> {
         let among = self.known.as_ref().map_or_else(Vec::new, |known| vec![known.hypothesis.clone()]);
-        let Led { fit: last, .. } = leader(self.here(), self.records, self.observations, self.known.as_ref(), &among)?;
+        let Led { fit: last, .. } = leader(self.here(), self.records, self.observations, self.known.as_ref(), (&among, false))?;
         let fitter = Fitter::new(self.here(), self.records, self.observations)?;
         fitter.fit_with_noise(&last.hypothesis, &last, 2)
     }
@@ -289,7 +292,7 @@ fn leader(
     records: &[usize],
     observations: &[Observation],
     known: Option<&Fit>,
-    among: &[Hypothesis],
+    (among, begins_anew): (&[Hypothesis], bool),
 ) -> Result<Led, Error> {
     let fitter = Fitter::new(model, records, observations)?;
     let noise = match known {
@@ -298,6 +301,11 @@ fn leader(
     };
     let recalibrated = fitter.fit(&Hypothesis::RECALIBRATED, &noise, known)?;
     let mut fits = among.iter().map(|hypothesis| fitter.screened(hypothesis, &recalibrated)).collect::<Result<Vec<Fit>, _>>()?;
+    // beside derivatives of the constants alone a fit may have missed its minimum, and what is known may have settled in another one: the likeliest begins anew
+    let likeliest = fits.iter().filter(|fit| !fit.log_evidence.is_nan()).max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence));
+    if let Some(hypothesis) = likeliest.filter(|_| begins_anew).map(|fit| fit.hypothesis.clone()) {
+        fits.push(fitter.fit(&hypothesis, &noise, None)?);
+    }
     // what is known goes on from there, too
     let goes_on = |known: &&Fit| !known.active.is_empty() && among.contains(&known.hypothesis) && strain(model, known) <= STRAYED;
     if let Some(known) = known.filter(goes_on) {

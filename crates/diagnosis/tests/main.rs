@@ -6,6 +6,7 @@ mod elsewhere;
 mod exact_evidence;
 mod hidden;
 mod kept;
+mod late;
 mod real_recordings;
 mod refused;
 mod rivals;

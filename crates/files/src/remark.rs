@@ -329,8 +329,12 @@ remarks! {
         "A meta file says that the unit was built to a design of another name.",
         "The model may be that of another coil.",
         "Give the design that the unit was built to, or correct `design` in the meta file.";
+    FitLeft "fit-left":
+        "What was found leaves, in a record that was fitted, more than twice the noise that neighbouring rows show and the drift that is usual.",
+        "The noise of the answer holds something that is not noise: the intervals are too wide or beside the truth, and a better explanation may not have been found.",
+        "Look at the rows that the message names, and at the figure of the residuals. Tell `sample_interval_s` in a meta file if the log's instants are in doubt, or whether the rate is filtered.";
     HeldOutLeft "held-out-left":
-        "What was found leaves more than 1.3 times the noise in a record that was held out (a warning from twice the noise on).",
+        "What was found leaves more than 1.3 times the noise in a record that was held out (a warning from twice the noise on), or more than twice the noise that its neighbouring rows show.",
         "What was found may be right and not all: something else was at work in that record, or it is of another unit.",
         "Check that the records are of one unit in one state, and fit the other record, too: `--fit` it, and hold out another.";
     TakenBack "taken-back":

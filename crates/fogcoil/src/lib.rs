@@ -52,6 +52,7 @@ pub mod homogenize;
 pub mod identify;
 mod jumps;
 mod keys;
+mod left;
 pub mod measure;
 #[cfg(not(target_family = "wasm"))]
 pub mod optimise;

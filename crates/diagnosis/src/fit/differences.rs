@@ -7,7 +7,7 @@ use crate::{Error, Observation};
 use nalgebra::{DMatrix, DVector};
 
 impl Objective<'_> {
-    /// Derivatives at a point; those by all but mechanisms' parameters come from a fit beside this one, if there is one
+    /// Derivatives at a point; those by unknowns that mechanisms leave as they are come from a fit beside this one, if there is one
     /// ([`Self::with_derivatives_of`]).
     pub(super) fn derivatives(&self, at: &Point) -> Result<Derivatives, Error> {
         let Some(like) = self.like else {
@@ -15,7 +15,7 @@ impl Objective<'_> {
             return Ok(Derivatives::new(&all));
         };
         let known: Vec<Option<usize>> =
-            self.layout.iter().map(|unknown| like.layout.iter().position(|own| own == unknown && !own.is_mechanism())).collect();
+            self.layout.iter().map(|unknown| like.layout.iter().position(|own| own == unknown && !self.is_own(*own))).collect();
         let of = &like.derivatives;
         let zeros = DMatrix::zeros(of.jacobian.nrows(), known.len());
         let mut derivatives = Derivatives { jacobian: zeros, products: DMatrix::zeros(known.len(), known.len()) };
@@ -30,9 +30,16 @@ impl Objective<'_> {
         Ok(derivatives)
     }
 
-    /// Derivatives by mechanisms' parameters anew at a point: those by all else hardly change on the way.
+    /// Whether an unknown has derivatives that another hypothesis does not share: a parameter of a mechanism, or a nuisance that acts on what a mechanism
+    /// adds.
+    fn is_own(&self, unknown: Unknown) -> bool {
+        let acts = |number: usize| !self.hypothesis.mechanisms.is_empty() && self.fitter.model.acts_on_mechanisms(number);
+        unknown.is_mechanism() || matches!(unknown, Unknown::Nuisance { number, .. } if acts(number))
+    }
+
+    /// Derivatives by unknowns of its own anew at a point ([`Self::is_own`]): those by all else hardly change on the way.
     pub(super) fn renew(&self, at: &Point, derivatives: &mut Derivatives) -> Result<(), Error> {
-        let own: Vec<usize> = (0..self.layout.len()).filter(|i| self.layout[*i].is_mechanism()).collect();
+        let own: Vec<usize> = (0..self.layout.len()).filter(|i| self.is_own(self.layout[*i])).collect();
         self.renewed(at, &own, derivatives)
     }
 

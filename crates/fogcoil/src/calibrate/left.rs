@@ -1,53 +1,10 @@
 //! Residuals of a unit's records under its constants, beside the noise of the records.
 
-use diagnosis::{Fit, ForwardModel, NoisePrior, Observation};
+use diagnosis::{Fit, ForwardModel, Observation};
 use mechanisms::{Gyro, RATE, SPOOL};
-use recording::check::white_noise;
 
+use crate::left::Left;
 use crate::table::significant;
-
-/// Usual drift over the median of its prior: about a standard deviation of its logarithm above. The median is a share of the white noise over a minute,
-/// so that neither the size of the noise nor the length of rows matters.
-const USUAL: f64 = 2.0;
-/// Ratio of a residual to noise with usual drift from which it is more than noise. A record of a dozen correlation times of the drift holds some six
-/// stretches of it, from which its size is known to 1/√(2·6) = 0.29: three times that above one, 1 + 3·0.29, rounded.
-const MISFIT: f64 = 2.0;
-
-/// Residual of a fit in one channel of a record, in the channel's unit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Left {
-    /// Root mean square of recorded less fitted.
-    pub(super) rms: f64,
-    /// Noise of a row: its difference from its neighbours, without slow changes.
-    pub(super) noise: f64,
-    /// The same with the usual drift beside it, and the noise of the chamber's thermometer, passed through the model.
-    pub(super) with_drift: f64,
-}
-
-impl Left {
-    /// Residual in the record of a unit in which it is largest over the noise; `None` for a channel that was not recorded.
-    fn of(gyro: &Gyro, fit: &Fit, observations: &[Observation], channel: usize) -> Option<Self> {
-        let left = observations.iter().zip(&fit.residuals).enumerate().filter_map(|(record, (observed, residuals))| {
-            let residual = &residuals[channel];
-            let used: Vec<f64> = residual.iter().copied().filter(|r| r.is_finite()).collect();
-            let rms = (used.iter().map(|r| r * r).sum::<f64>() / used.len() as f64).sqrt();
-            let mask: Vec<bool> = residual.iter().map(|r| r.is_finite()).collect();
-            let noise = white_noise(&observed.time, residual, &mask)
-                .filter(|sd| *sd > 0.0)
-                .unwrap_or(fit.noise_model(record, channel).white);
-            // as known beforehand: where a fit leaves something unexplained, its own noise has swallowed that
-            let NoisePrior { drift, passed, .. } = gyro.channels()[channel].noise;
-            let with_drift = noise.hypot(USUAL * drift.0).hypot(passed.0 * passed.1.exp());
-            rms.is_finite().then_some(Self { rms, noise, with_drift })
-        });
-        left.max_by(|a, b| (a.rms / a.with_drift).total_cmp(&(b.rms / b.with_drift)))
-    }
-
-    /// Whether it is more than noise.
-    pub(super) fn is_misfit(&self) -> bool {
-        self.rms > MISFIT * self.with_drift
-    }
-}
 
 /// Residuals of a unit's rate \[deg/h\] and of its thermometer \[K\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,7 +15,7 @@ pub(super) struct LeftOfUnit {
 
 impl LeftOfUnit {
     pub(super) fn of(gyro: &Gyro, fit: &Fit, observations: &[Observation]) -> Self {
-        let of = |channel| Left::of(gyro, fit, observations, channel);
+        let of = |channel| largest(gyro, fit, observations, channel);
         Self { rate: of(RATE), spool: of(SPOOL) }
     }
 
@@ -83,6 +40,15 @@ impl LeftOfUnit {
             format!("the design's constants leave {}: is the unit of this design, and a good one?", misfits.join(", and "))
         })
     }
+}
+
+/// Residual in the record of a unit in which it is largest over the noise; `None` for a channel that was not recorded.
+fn largest(gyro: &Gyro, fit: &Fit, observations: &[Observation], channel: usize) -> Option<Left> {
+    let beforehand = &gyro.channels()[channel].noise;
+    let left = observations.iter().zip(&fit.residuals).enumerate().filter_map(|(record, (observed, residuals))| {
+        Left::of(&observed.time, &residuals[channel], beforehand, fit.noise_model(record, channel).white)
+    });
+    left.max_by(|a, b| a.over_noise().total_cmp(&b.over_noise()))
 }
 
 #[cfg(test)]

@@ -4,11 +4,11 @@ use diagnosis::{Believed, Lot};
 use recording::statistics::normal_quantile;
 use serde_json::{Value, json};
 
-use super::left::Left;
 use super::{Constant, Outcome, Told};
 use crate::Error;
 use crate::input::{check_coil, keyed};
 use crate::keys::interval_by_key;
+use crate::left::Left;
 use crate::output::coil_file;
 use crate::table::{significant, table};
 

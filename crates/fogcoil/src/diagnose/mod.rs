@@ -10,6 +10,7 @@ mod doubts;
 mod drawing;
 mod extended;
 mod ignored;
+mod in_rows;
 mod json;
 mod jumped;
 mod left;
@@ -43,6 +44,7 @@ use crate::Error;
 use crate::cache::Cache;
 use crate::compose::{Composed, Sought, StandIn, compose};
 use crate::input::{CoilCase, Fingerprint, InputError, MechanismCase, RecordCase};
+use crate::left::Left;
 use crate::prepare::{Record, chamber_offset, gyro, library, other_design, ready, refuse_copies};
 use crate::table::significant;
 
@@ -217,7 +219,12 @@ pub fn diagnose<'m>(
     }
     let (verdict, taken_back) = (diagnosis.verdict, !withdrawn.is_empty());
     let judged = holdouts.iter().filter(|_| verdict != Verdict::Unknown);
-    notes.extend(judged.filter_map(|held| left_over(held, held.answer(verdict, taken_back))));
+    notes.extend(judged.filter_map(|held| left_over(gyro, held, held.answer(verdict, taken_back))));
+    // what stands beside a structure, or was taken back, is said to leave something
+    let leading = Some(diagnosis.best()).filter(|best| verdict != Verdict::Unknown && best.rival.is_none() && !taken_back);
+    if let Some(fit) = law.map(|law| &law.fit).or(leading.map(|best| &best.fit)) {
+        notes.extend(read.iter().enumerate().filter_map(|(number, record)| in_rows::left_in_fit(gyro, number, record, fit)));
+    }
     let (name, coil, design) = (case.name.clone(), case.file.clone(), case.fingerprints.clone());
     let alone = diagnosis.best().is_constants_alone();
     let gyro = if alone { settled.into_alone() } else { settled.model }.unwrap_or(drawn);
@@ -312,11 +319,16 @@ fn reads_otherwise(answer: &HeldOut) -> bool {
     answer.within_noise(RATE_CHANNEL) && answer.is_far_from_noise(SPOOL_CHANNEL)
 }
 
-/// Note on a held-out record in which the answer leaves more than noise.
-fn left_over(held: &Held, answer: &HeldOut) -> Option<Note> {
+/// Note on a held-out record in which the answer leaves more than noise, or far more than the noise of its rows.
+fn left_over(gyro: &Gyro, held: &Held, answer: &HeldOut) -> Option<Note> {
     let of = |channel: usize, name: &str| {
+        let in_rows = in_rows::of_held(gyro, &held.record, answer, channel).filter(Left::is_misfit);
+        if answer.within_noise(channel) {
+            return in_rows
+                .map(|left| (false, format!("{name} {} times the noise of its rows", significant(left.over_noise(), 2))));
+        }
         let left = format!("{name} {} times its noise", significant(answer.over_noise(channel), 2));
-        (!answer.within_noise(channel)).then_some((answer.is_far_from_noise(channel), left))
+        Some((answer.is_far_from_noise(channel), left))
     };
     let left: Vec<(bool, String)> =
         [of(RATE_CHANNEL, "of the rate"), of(SPOOL_CHANNEL, "of the thermometer")].into_iter().flatten().collect();
@@ -418,6 +430,18 @@ impl Outcome<'_> {
         let taken_back = !self.withdrawn.is_empty();
         let far = |held: &Held, channel: &usize| held.answer(self.diagnosis.verdict, taken_back).is_far_from_noise(*channel);
         self.holdouts.iter().any(|held| [RATE_CHANNEL, SPOOL_CHANNEL].iter().any(|channel| far(held, channel)))
+    }
+
+    /// The largest residual of the rate in a record that was held out over its noise, that of its rows or of its minutes, if it is far more than that.
+    fn far_in_held(&self) -> Option<f64> {
+        let taken_back = !self.withdrawn.is_empty();
+        let of = |held: &Held| {
+            let answer = held.answer(self.diagnosis.verdict, taken_back);
+            let in_rows = in_rows::of_held(&self.gyro, &held.record, answer, RATE_CHANNEL).filter(Left::is_misfit);
+            let in_minutes = answer.is_far_from_noise(RATE_CHANNEL).then(|| answer.over_noise(RATE_CHANNEL));
+            in_rows.map(|left| left.over_noise()).into_iter().chain(in_minutes).reduce(f64::max)
+        };
+        self.holdouts.iter().filter_map(of).reduce(f64::max)
     }
 
     /// Whether the rate of a record that was held out is as predicted, and its thermometer far from it.

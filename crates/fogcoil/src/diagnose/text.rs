@@ -307,11 +307,10 @@ impl Outcome<'_> {
 
     /// The sentence that what was held out confirms `it`, as far as it does.
     fn confirmed(&self, it: &str) -> String {
-        let most = self.holdouts.iter().map(|held| (held, held.model.over_noise(RATE_CHANNEL)));
-        match most.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(held, _)| held.model.is_far_from_noise(RATE_CHANNEL)) {
-            Some((held, times)) => format!(
-                "A record that was held out is predicted better with it, but {} keeps {times:.1} times its noise: the cause is confirmed, its size is not.",
-                shown(&held.record.name())
+        match self.far_in_held() {
+            Some(over) => format!(
+                "A record that was held out is predicted better so, but {} times the noise of its rate is left in it: the cause is confirmed, its size is not.",
+                significant(over, 2)
             ),
             None => format!("A record that was held out confirms {it}."),
         }

@@ -322,7 +322,7 @@ mod tests {
     #[test]
     fn a_cause_that_switches_is_weighed_though_the_rate_jumps_with_it() {
         // its own fluctuations act on the rate, too
-        let field = |n: f64| 3.2 * random(n) + if (n / 20.0) as usize % 2 == 0 { 0.0 } else { 20.0 };
+        let field = |n: f64| 3.2 * random(n) + if n.rem_euclid(40.0) < 20.0 { 0.0 } else { 20.0 };
         // beside the rate's own noise of 0.6 deg/h; the filtered reading of that is made from it, and the note says so
         let last = std::cell::Cell::new(0.0);
         let text = |[n, _, _, rate]: [f64; 4]| {

@@ -230,6 +230,30 @@ fn the_other_handedness_is_no_sign_of_the_rate() {
     assert!(said.contains("with winding.cw_climbs: Left") && !said.contains("[reversed-rate]"), "{said}");
 }
 
+/// A heater that is on from the first row makes steps of the rate that a late clock would make otherwise: where nothing says how rows are stamped, its power
+/// and its instant come out all the same, and no clock is late.
+#[test]
+#[ignore = "minutes"]
+fn a_heater_makes_no_clock_late() {
+    let folder = Folder::new();
+    folder
+        .write("unit.ron", change(COIL, "    sensor: (", "    heat: (heaters: [(side: Right, power_w: 0.25)]),\n    sensor: ("));
+    let profile = "time_s,chamber_c\n0,22\n1800,22\n3600,-10\n9000,-10\n13800,70\n19200,70\n21600,40\n27000,22\n34200,22\n";
+    let fine = simulated_as(&folder, "unit.ron", profile, &["--step", "30"]);
+    let rows = fine.iter().enumerate().map(|(n, row)| {
+        let [chamber, spool] = [(1, 0.03, 31), (2, 0.01, 77)].map(|(column, sd, seed)| row[column] + sd * noise(n + seed));
+        format!("{},{chamber:.2},{spool:.2},{:.4}\n", row[0], 9.2 + row[6] + 0.013 * noise(n))
+    });
+    folder.write("record.csv", "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &rows.collect::<String>());
+    let output = folder.run(&["diagnose", "coil.ron", "--fit", "record.csv", "--json", "found.json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let said = stdout(&output) + &stderr(&output);
+    assert!(said.contains("Most likely: self-heating") && !said.contains("The rate is read"), "{said}");
+    let found: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(folder.path("found.json")).unwrap()).unwrap();
+    let value = |name: &str| found["parameters"][name]["value"].as_f64().unwrap();
+    assert!((value("power_w") - 0.25).abs() < 0.005 && value("before_s") < 10.0, "{said}");
+}
+
 /// Minutes of a simulation as a logger writes them, the rate times a sign.
 fn logged(folder: &Folder, fine: &[Vec<f64>], sign: f64) -> &'static str {
     let rows = (3..fine.len()).step_by(3).map(|n| {

@@ -371,6 +371,11 @@ impl ForwardModel for Gyro<'_> {
         &self.mechanisms
     }
 
+    /// A rate that may be late is late with what mechanisms add; a small delay acts on the design's part alone.
+    fn acts_on_mechanisms(&self, nuisance: usize) -> bool {
+        [instruments::RATE_DELAY, instruments::RATE_FILTER].contains(&nuisance) && instruments::may_be_late(&self.nuisances)
+    }
+
     fn respond(&self, record: usize, u: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Failure> {
         Ok(Gyro::respond(self, record, u, active)?)
     }
