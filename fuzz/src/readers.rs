@@ -194,7 +194,7 @@ fn batches() {
         std::fs::write(&table, bytes).expect("a file");
         match input::read_passed(&table) {
             Err(error) => refused(folder.path(), &error),
-            Ok(units) => assert!(!units.is_empty() && units.iter().all(|records| !records.is_empty())),
+            Ok(passed) => assert!(!passed.units.is_empty() && passed.units.iter().all(|records| !records.is_empty())),
         }
     });
 }

@@ -32,6 +32,7 @@ mod profile;
 mod profile_columns;
 mod propose;
 mod quantity;
+mod quotes;
 mod record;
 mod record_clock;
 mod record_columns;

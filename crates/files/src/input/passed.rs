@@ -53,10 +53,13 @@ pub fn read_passed(path: &Path) -> Result<Passed, InputError> {
         }
         passed.units.push(records);
     }
+    if passed.units.is_empty() && !passed.left_out.is_empty() {
+        let remedy = "record them again, or name the units and the records to take with --unit";
+        return Err(rows.whole_fault("of every unit that passed a warning says that a record is read wrongly", remedy));
+    }
     if passed.units.is_empty() {
-        return Err(
-            rows.whole_fault("no unit has passed", "let fogcoil batch judge them by --limits, or name the units with --unit")
-        );
+        let remedy = "let fogcoil batch judge them by --limits, or name the units with --unit";
+        return Err(rows.whole_fault("no unit has passed", remedy));
     }
     Ok(passed)
 }
@@ -81,6 +84,8 @@ mod tests {
         // of one whose thermometer fell off nothing is learnt; other warnings leave it good
         let table = "unit,judged,warnings,files\nA,pass,held-out-left; loose-thermometer,a.csv\nB,pass,gap,b.csv\n";
         assert_eq!(read(table), Ok(Passed { units: vec![of(&["b.csv"])], left_out: vec!["A".into()] }));
+        let table = table.replace("B,pass", "B,fail");
+        assert!(read(&table).unwrap_err().contains("of every unit that passed a warning says"), "{table}");
     }
 
     #[test]

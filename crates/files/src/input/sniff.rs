@@ -6,8 +6,8 @@ use std::path::Path;
 
 use super::InputError;
 use super::encoding::{Decoded, Encoding};
+use super::quotes::unquoted;
 use super::record_options::Key;
-use super::rows::unquoted;
 use super::timestamp;
 use super::unit_names::spelled;
 
