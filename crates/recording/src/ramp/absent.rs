@@ -1,7 +1,9 @@
 //! Reasons why a number cannot be determined.
 
-use super::lags::SETTLED;
 use crate::{Error, Seconds};
+
+/// A response three time constants into a ramp is 95 % of what it settles at: the longest is a third of that.
+pub(super) const SETTLED: f64 = 3.0;
 
 /// Reason why a record does not determine a number.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,9 +1,7 @@
 //! Time constants with which a response may follow a ramp.
 
-use super::absent::Absent;
+use super::absent::{Absent, SETTLED};
 
-/// A response three time constants into a ramp is 95 % of what it settles at: the longest is a third of that.
-pub(super) const SETTLED: f64 = 3.0;
 /// A time constant is half of the one before: less far apart they can hardly be told from each other, farther apart they miss what lies between.
 const RATIO: f64 = 2.0;
 const MOST: usize = 8;
