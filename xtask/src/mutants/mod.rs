@@ -1,6 +1,8 @@
 //! `cargo xtask mutants`: every function of the crates that compute, answered wrongly or with an operator exchanged; which mutants the crate's own tests catch.
 
 mod list;
+mod outcome;
+mod runner;
 mod trial;
 mod weave;
 mod woven;
@@ -8,29 +10,22 @@ mod woven;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::sync::{Mutex, mpsc};
 
 use proof::Failure;
-use proof::files::{read, renew, root, write};
+use proof::files::{read, renew, root};
 use proof::statistics::rate;
 use serde_json::Value;
 
+use self::outcome::{Outcome, Tried, keep, kept};
+use self::runner::runner;
 use self::trial::Tests;
 use self::woven::Woven;
-use crate::tools::{tool, tool_with};
 
-const RUNNER: [&str; 2] = ["cargo-mutants", "27.1.0"];
-/// Runs tests one by one, so that the first that fails ends a mutant's trial.
-const TESTER: [&str; 2] = ["cargo-nextest", "0.9.151"];
-/// Without the part that fetches new versions of itself.
-const TESTER_FLAGS: [&str; 3] = ["--no-default-features", "--features", "default-no-update"];
 /// Crates whose tests share a model that takes longer to make than the tests take: one process for all.
 const TOGETHER: [&str; 1] = ["mechanisms"];
 const PAGE: &str = "docs/trust.md";
 const MARKS: [&str; 2] = ["<!-- mutants: written by `cargo xtask mutants` -->", "<!-- mutants end -->"];
-/// Outcomes by mutant, a file for each crate, kept from run to run.
-const KEPT: &str = "xtask/mutants/outcomes";
 /// Mutants that nothing can tell from the program, each with the reason: `name: reason` by line.
 const ARGUED: &str = "xtask/mutants/argued.txt";
 /// Statuses of the runner after all mutants were tried: caught, some missed, some endless.
@@ -75,26 +70,6 @@ pub(crate) struct Mutants {
     /// Trials at once
     #[arg(long, value_name = "N", default_value_t = 2)]
     jobs: usize,
-}
-
-/// Outcome of a mutant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Outcome {
-    /// A test failed, or took for ever, when it was first tried.
-    Caught,
-    /// A test that was written since fails.
-    CaughtSince,
-    Missed,
-}
-
-/// Mutants of a crate that were tried.
-#[derive(Debug, Default, serde::Serialize, serde::Deserialize)]
-struct Tried {
-    /// Mutants of the crate, those among them that do not compile.
-    all: usize,
-    unviable: usize,
-    outcomes: BTreeMap<String, Outcome>,
 }
 
 /// Mutants by crate.
@@ -202,28 +177,6 @@ impl Mutants {
     }
 }
 
-/// Outcomes of a crate as they were kept.
-fn kept(name: &str) -> Result<Tried, Failure> {
-    let path = root().join(KEPT).join(name).with_extension("json");
-    Ok(if path.exists() { serde_json::from_str(&read(&path)?)? } else { Tried::default() })
-}
-
-/// Keeps the outcomes of a crate.
-fn keep(name: &str, of: &Tried) -> Result<(), Failure> {
-    write(&root().join(KEPT).join(name).with_extension("json"), &(serde_json::to_string_pretty(of)? + "\n"))
-}
-
-/// The runner, with the tester in its reach.
-fn runner() -> Result<Command, Failure> {
-    let tester = tool_with(TESTER, &TESTER_FLAGS)?;
-    let folder = Path::new(tester.get_program()).parent().map(Path::to_owned).unwrap_or_default();
-    let others = std::env::var_os("PATH").unwrap_or_default();
-    let reach = std::env::join_paths(std::iter::once(folder).chain(std::env::split_paths(&others)))?;
-    let mut runner = tool(RUNNER)?;
-    runner.arg("mutants").env("PATH", reach).current_dir(root());
-    Ok(runner)
-}
-
 /// The pattern that a text alone fits.
 fn regex_of(text: &str) -> String {
     let mark = |c: char| if r"\.+*?()|[]{}^$#&-~".contains(c) { format!("\\{c}") } else { c.to_string() };
@@ -314,6 +267,8 @@ fn table(outcomes: &Outcomes, argued: &BTreeMap<&str, &str>) -> (String, bool) {
 
 #[cfg(test)]
 mod tests {
+    use proof::files::write;
+
     use super::*;
 
     #[test]

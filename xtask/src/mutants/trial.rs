@@ -12,7 +12,7 @@ use proof::files::{failed, read, write};
 use proof::program::hex;
 use sha2::{Digest as _, Sha256};
 
-use super::Outcome;
+use super::outcome::Outcome;
 
 /// Tests that take less are run together, in seconds.
 const QUICK: f64 = 1.0;

@@ -9,7 +9,7 @@ use proof::files::{below, failed, read, root};
 use serde_json::Value;
 
 use super::list::{Genre, Mutant, of_json};
-use super::runner;
+use super::runner::runner;
 use super::trial::Program;
 use super::weave::{Place, SWITCHES, place_of, weave};
 use crate::tools::{cargo, printed};
