@@ -351,7 +351,13 @@ impl Fitter<'_> {
 /// `None` if it is not finite.
 fn gained(base: &Fit, column: Vec<f64>, prior: Prior) -> Option<(f64, f64)> {
     let (free, gradient) = base.marginal(&DMatrix::from_vec(column.len(), 1, column));
-    let (free, along) = (free[0].max(0.0), gradient[0]);
+    let (gain, amplitude) = gain_of(free[0].max(0.0), gradient[0], prior);
+    gain.is_finite().then_some((gain, amplitude))
+}
+
+/// ln of the mean, over the prior, of the likelihood exp(`along` a − `free` a²/2) of an amplitude a in standard deviations of the prior, and the likeliest
+/// amplitude: for a size as if it were normal, or about the amplitude that the data alone tell, whichever is more.
+fn gain_of(free: f64, along: f64, prior: Prior) -> (f64, f64) {
     let precision = 1.0 + free;
     let normal = (along * along / precision / 2.0 - precision.ln() / 2.0, along / precision);
     // far out the data alone say how large it is
@@ -364,6 +370,47 @@ fn gained(base: &Fit, column: Vec<f64>, prior: Prior) -> Option<(f64, f64)> {
         }
         _ => normal,
     };
-    let (gain, amplitude) = if largest.0 > normal.0 { largest } else { normal };
-    gain.is_finite().then_some((gain, amplitude))
+    if largest.0 > normal.0 { largest } else { normal }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The mean of the likelihood over the prior, by quadrature.
+    fn mean(free: f64, along: f64, prior: Prior) -> f64 {
+        let step = 1e-4;
+        let most = if free > 0.0 { along * along / free / 2.0 } else { 0.0 };
+        let likelihood = |u: f64| {
+            let a = prior.value(u) / prior.sd();
+            (along * a - free * a * a / 2.0 - most - u * u / 2.0).exp()
+        };
+        let sum: f64 = (-80_000..=80_000).map(|n| likelihood(f64::from(n) * step)).sum();
+        most + (sum * step / std::f64::consts::TAU.sqrt()).ln()
+    }
+
+    #[test]
+    fn exact_the_gain_of_a_normal_size_is_the_mean_of_its_likelihood() {
+        for (free, along) in [(0.0, 0.0), (0.3, 0.5), (4.0, -6.0), (50.0, 20.0)] {
+            let (gain, amplitude) = gain_of(free, along, Prior::Normal { mean: 0.0, sd: 0.7 });
+            let exact = mean(free, along, Prior::Normal { mean: 0.0, sd: 0.7 });
+            assert!((gain - exact).abs() < 1e-6, "{free} {along}: {gain} and {exact}");
+            assert!((amplitude - along / (1.0 + free)).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_gain_of_a_far_size_is_that_of_the_data_beside_its_own_prior() {
+        // an amplitude of 12 standard deviations, known to a quarter and to a fortieth of one
+        for (free, scale) in [(16.0, 1.0), (1600.0, 1.0), (16.0, 1e-6)] {
+            let prior = Prior::Size { scale };
+            let (gain, amplitude) = gain_of(free, -12.0 * free, prior);
+            let exact = mean(free, -12.0 * free, prior);
+            assert!((amplitude + 12.0).abs() < 1e-9, "{amplitude}");
+            assert!((gain - exact).abs() < 0.02, "{free} {scale}: {gain} and {exact}");
+        }
+        // a small one is as if its prior were normal
+        let near = [Prior::Size { scale: 3.0 }, Prior::Normal { mean: 0.0, sd: 3.0 }].map(|prior| gain_of(2.0, 1.5, prior));
+        assert_eq!(near[0], near[1]);
+    }
 }

@@ -2,8 +2,8 @@
 
 use crate::common::lines::{Lines, WHITE, alone};
 use diagnosis::{
-    Active, Breadth, Channel, Earlier, Fit, ForwardModel, Hypothesis, Nuisance, Observation, Omission, Settings, State, compose,
-    compose_within, fitted, in_place_of, prove, proven,
+    Active, Breadth, Channel, Composed, Earlier, Fit, ForwardModel, Hypothesis, Nuisance, Observation, Omission, Parameter,
+    Prior, Settings, State, compose, compose_within, fitted, in_place_of, prove, proven,
 };
 use rand::SeedableRng;
 use rand::rngs::SmallRng;
@@ -34,6 +34,21 @@ fn the_law_that_made_a_record_is_composed_with_its_size() {
     let single = fitted(&lines, &[0], std::slice::from_ref(&observed), &[alone(1)]).expect("a fit");
     let gain = single.log_evidence - nothing.log_evidence - 2.0_f64.ln();
     assert!((found.gain - gain).abs() < 0.05, "{} and {gain}", found.gain);
+}
+
+/// What stays behind the law that is taken, and what an answer of two laws weighs.
+#[test]
+fn others_are_behind_by_their_evidence_and_share_the_last_place() {
+    let (lines, observed, nothing) = record(1.5, 3);
+    let observed = std::slice::from_ref(&observed);
+    let found = compose(&lines, 0..2, &[0], observed, &nothing, &|_| ()).expect("composed").expect("a law");
+    let [first, second] = [0, 1].map(|law| fitted(&lines, &[0], observed, &[alone(law)]).expect("a fit").log_evidence);
+    let [(other, behind)] = found.others[..] else { panic!("{:?}", found.others) };
+    assert!(other == 0 && (behind - (second - first)).abs() < 0.05, "{behind} and {}", second - first);
+    // two laws in either order, and two others that are as good as the last and half as good
+    let two = Composed { laws: 2, choice: 1.5, others: vec![(3, 0.0), (4, 2.0_f64.ln())], ..found };
+    let weight = two.fit.log_evidence - 1.5 + 2.0_f64.ln() + 2.5_f64.ln() - 7.0;
+    assert!((two.log_weight(-7.0) - weight).abs() < 1e-9, "{} and {weight}", two.log_weight(-7.0));
 }
 
 #[test]
@@ -157,6 +172,65 @@ impl ForwardModel for Sum {
             y.iter_mut().zip(self.column(*mechanism)).for_each(|(y, x)| *y += values[0] * x);
         }
         Ok(vec![y])
+    }
+}
+
+/// A bump at a place that is fitted: from a place far off no slope leads to it.
+struct Bump {
+    lines: Lines,
+    laws: Vec<Omission>,
+}
+
+impl Bump {
+    fn new(places: [f64; 3]) -> Self {
+        let lines = Lines::new(ROWS).starting_at(1.0);
+        let size = lines.mechanisms()[0].parameters[0].clone();
+        let place = Parameter::new("place", Prior::Uniform { low: 0.0, high: 1.0 });
+        let starts = places.map(|place| vec![1.0, place]).to_vec();
+        let laws = vec![Omission { id: "bump".into(), parameters: vec![size, place], starts, ..lines.mechanisms()[0].clone() }];
+        Self { lines, laws }
+    }
+}
+
+impl ForwardModel for Bump {
+    fn channels(&self) -> &[Channel] {
+        self.lines.channels()
+    }
+
+    fn nuisances(&self) -> &[Nuisance] {
+        &[]
+    }
+
+    fn mechanisms(&self) -> &[Omission] {
+        &self.laws
+    }
+
+    fn state(&self, record: usize) -> &State {
+        self.lines.state(record)
+    }
+
+    fn respond(&self, _: usize, _: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
+        let of = |n: usize| {
+            let x = n as f64 / ROWS as f64;
+            active.iter().map(|law| law.values[0] * (-((x - law.values[1]) / 0.02).powi(2)).exp()).sum()
+        };
+        Ok(vec![(0..ROWS).map(of).collect()])
+    }
+}
+
+#[test]
+fn a_law_begins_at_the_best_of_its_starts() {
+    for places in [[0.1, 0.4, 0.71], [0.71, 0.4, 0.1], [0.1, 0.71, 0.4]] {
+        let model = Bump::new(places);
+        let mut random = SmallRng::seed_from_u64(9);
+        let noise = Normal::new(0.0, WHITE).expect("a density");
+        let truth = [Active { mechanism: 0, values: vec![3.0, 0.7], choice: None }];
+        let y: Vec<f64> =
+            model.respond(0, &[], &truth).expect("a response")[0].iter().map(|y| y + noise.sample(&mut random)).collect();
+        let observed = [model.lines.observed(&y)];
+        let nothing = fitted(&model, &[0], &observed, &[Hypothesis::NOMINAL]).expect("a fit");
+        let found = compose(&model, 0..1, &[0], &observed, &nothing, &|_| ()).expect("composed").expect("a law");
+        assert!((found.fit.active[0].values[1] - 0.7).abs() < 0.01, "{places:?}: {:?}", found.fit.active);
     }
 }
 
