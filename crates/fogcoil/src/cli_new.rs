@@ -76,6 +76,15 @@ pub(crate) fn run(New { file, kind, second }: &New) -> Result<(), Error> {
             (second, kind)
         }
     };
+    // a file of that name is read as JSON
+    if file.extension().is_some_and(|end| end.eq_ignore_ascii_case("json")) {
+        let name = file.with_extension("ron");
+        return Err(Error::usage(format!(
+            "{}: templates are RON; name it {}",
+            files::shown_path(file),
+            files::shown_path(&name)
+        )));
+    }
     output::write_new(file, kind.template())?;
     print(&format!("{} is written; try `{} {0}`\n", files::shown_path(file), kind.first()))
 }

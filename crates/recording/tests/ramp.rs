@@ -366,6 +366,15 @@ fn what_a_record_does_not_hold_is_not_told() {
     // at rest, beside a thermometer's noise
     let still = Record::of(&UNIT, &[(0.0, 20.0), (20_000.0, 20.0)], &noise(), 0.05, 1).respond();
     assert!(matches!(still, Err(Absent::Still { .. })), "{still:?}");
+    // nothing at all
+    let none = Record {
+        time: Vec::new(),
+        values: Vec::new(),
+        temperature: Vec::new(),
+        ..Record::of(&UNIT, UP_AND_DOWN, &noise(), 0.01, 1)
+    };
+    let told = none.respond().map(|_| ()).unwrap_err().to_string();
+    assert!(matches!(none.respond(), Err(Absent::Noise(_))) && !told.contains("inf"), "{told}");
     // a ramp from the first row to the last is an offset
     for reading in [0.0, 0.02] {
         let ramp = Record::of(&UNIT, &[(0.0, -40.0), (12_000.0, 60.0)], &noise(), reading, 1).respond().unwrap();

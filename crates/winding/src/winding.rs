@@ -56,7 +56,7 @@ impl Winding {
     }
 
     /// The turns in order along the fibre from z = 0; without the tails. Each begins where the one before ends. The first of them lie in an outermost layer of
-    /// the CCW half, not in layer 1.
+    /// the CCW half, not in layer 1, except in the cylindrical pattern.
     pub fn turns(&self) -> &[Turn] {
         &self.turns
     }

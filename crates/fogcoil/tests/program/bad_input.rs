@@ -241,6 +241,13 @@ fn a_path_is_checked_before_anything_is_read() {
 }
 
 #[test]
+fn a_template_is_not_written_under_a_name_that_is_read_as_json() {
+    let folder = Folder::new();
+    refuse(&folder, &["new", "c.JSON"], &["c.JSON: templates are RON; name it c.ron"]);
+    assert!(!folder.path("c.JSON").exists());
+}
+
+#[test]
 fn a_file_of_another_kind_is_named() {
     let folder = Folder::new();
     folder.write("coil.ron", COIL);

@@ -32,6 +32,7 @@ pub use absent::{Absent, Direction, Short, Watch};
 pub use estimate::Estimate;
 pub use input::Input;
 
+use crate::Error;
 use crate::noise::NoiseEstimate;
 use branches::Course;
 use design::{Design, Weights};
@@ -63,10 +64,14 @@ pub struct Response {
     pub noise: NoiseEstimate,
 }
 
+/// Fewest rows of a course: less is none.
+const FEWEST: usize = 2;
 /// No course is taken to be known better than this share of its range.
 const LEAST_NOISE: f64 = 1e-6;
 
 /// Response of a channel to a temperature.
+///
+/// Three thousand rows take some seconds; average longer records first ([`crate::condition`]).
 ///
 /// # Errors
 /// [`Absent`] where the temperature stands still, or nothing can be told.
@@ -74,6 +79,9 @@ const LEAST_NOISE: f64 = 1e-6;
 /// # Panics
 /// If the series are not of one length.
 pub fn respond(input: &Input) -> Result<Response, Absent> {
+    if input.time.len() < FEWEST {
+        return Err(Error::TooFew { found: input.time.len(), needed: FEWEST }.into());
+    }
     let range = range(input.drive);
     let step = input.reading[1];
     let noise = input.reading[0].max(step / 12.0_f64.sqrt()).max(LEAST_NOISE * range);
