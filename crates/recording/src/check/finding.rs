@@ -290,7 +290,8 @@ fn declare(key: &str, candidates: &[String]) -> Cow<'static, str> {
             let others = if others.is_empty() { String::new() } else { format!(" (or {})", others.join(", ")) };
             format!("if so, say it: --unit {key}={first}{others}, or unit in the map file").into()
         }
-        _ => "if its unit is another, say it: --unit KEY=UNIT, or unit in the map file".into(),
+        [] => "if its unit is another, say it: --unit KEY=UNIT, or unit in the map file".into(),
+        _ => "if so, say it: --unit KEY=UNIT, or unit in the map file".into(),
     }
 }
 
