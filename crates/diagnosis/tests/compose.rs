@@ -126,73 +126,46 @@ fn of_noise_nothing_is_composed() {
     }
 }
 
-/// Lines with a third law: the sum of two others, and something of its own.
-struct Sum {
+/// Laws of one's own in the noise of [`Lines`], each a function of its values and of the place in the record, from 0 to 1.
+struct Laws {
     lines: Lines,
     laws: Vec<Omission>,
+    of: fn(&Active, f64) -> f64,
 }
 
-impl Sum {
-    fn new() -> Self {
+impl Laws {
+    /// The sum of two others with something of its own, and these: a wave and a ripple.
+    fn sum() -> Self {
         let lines = Lines::new(ROWS).starting_at(1.0);
         let laws = ["sum", "wave", "ripple"].map(|id| Omission { id: id.into(), ..lines.mechanisms()[0].clone() }).to_vec();
-        Self { lines, laws }
-    }
-
-    fn column(&self, law: usize) -> Vec<f64> {
-        let of = |n: usize| {
-            let x = n as f64 / ROWS as f64;
+        let of = |law: &Active, x: f64| {
             let (wave, ripple) = ((7.0 * x).sin(), (40.0 * x).cos());
-            [wave + ripple + 0.5 * (90.0 * x).sin(), wave, ripple][law]
+            law.values[0] * [wave + ripple + 0.5 * (90.0 * x).sin(), wave, ripple][law.mechanism]
         };
-        (0..ROWS).map(of).collect()
-    }
-}
-
-impl ForwardModel for Sum {
-    fn channels(&self) -> &[Channel] {
-        self.lines.channels()
+        Self { lines, laws, of }
     }
 
-    fn nuisances(&self) -> &[Nuisance] {
-        &[]
-    }
-
-    fn mechanisms(&self) -> &[Omission] {
-        &self.laws
-    }
-
-    fn state(&self, record: usize) -> &State {
-        self.lines.state(record)
-    }
-
-    fn respond(&self, _: usize, _: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
-        let mut y = vec![0.0; ROWS];
-        for Active { mechanism, values, .. } in active {
-            y.iter_mut().zip(self.column(*mechanism)).for_each(|(y, x)| *y += values[0] * x);
-        }
-        Ok(vec![y])
-    }
-}
-
-/// A bump at a place that is fitted: from a place far off no slope leads to it.
-struct Bump {
-    lines: Lines,
-    laws: Vec<Omission>,
-}
-
-impl Bump {
-    fn new(places: [f64; 3]) -> Self {
+    /// A bump at a place that is fitted: from a place far off no slope leads to it.
+    fn bump(places: [f64; 3]) -> Self {
         let lines = Lines::new(ROWS).starting_at(1.0);
         let size = lines.mechanisms()[0].parameters[0].clone();
         let place = Parameter::new("place", Prior::Uniform { low: 0.0, high: 1.0 });
         let starts = places.map(|place| vec![1.0, place]).to_vec();
         let laws = vec![Omission { id: "bump".into(), parameters: vec![size, place], starts, ..lines.mechanisms()[0].clone() }];
-        Self { lines, laws }
+        let of = |law: &Active, x: f64| law.values[0] * (-((x - law.values[1]) / 0.02).powi(2)).exp();
+        Self { lines, laws, of }
+    }
+
+    /// A record of some laws, in noise.
+    fn record(&self, truth: &[Active], seed: u64) -> Observation {
+        let mut random = SmallRng::seed_from_u64(seed);
+        let noise = Normal::new(0.0, WHITE).expect("a density");
+        let y = self.respond(0, &[], truth).expect("a response").remove(0);
+        self.lines.observed(&y.into_iter().map(|y| y + noise.sample(&mut random)).collect::<Vec<_>>())
     }
 }
 
-impl ForwardModel for Bump {
+impl ForwardModel for Laws {
     fn channels(&self) -> &[Channel] {
         self.lines.channels()
     }
@@ -210,24 +183,16 @@ impl ForwardModel for Bump {
     }
 
     fn respond(&self, _: usize, _: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
-        let of = |n: usize| {
-            let x = n as f64 / ROWS as f64;
-            active.iter().map(|law| law.values[0] * (-((x - law.values[1]) / 0.02).powi(2)).exp()).sum()
-        };
-        Ok(vec![(0..ROWS).map(of).collect()])
+        let at = |n: usize| active.iter().map(|law| (self.of)(law, n as f64 / ROWS as f64)).sum();
+        Ok(vec![(0..ROWS).map(at).collect()])
     }
 }
 
 #[test]
 fn a_law_begins_at_the_best_of_its_starts() {
     for places in [[0.1, 0.4, 0.71], [0.71, 0.4, 0.1], [0.1, 0.71, 0.4]] {
-        let model = Bump::new(places);
-        let mut random = SmallRng::seed_from_u64(9);
-        let noise = Normal::new(0.0, WHITE).expect("a density");
-        let truth = [Active { mechanism: 0, values: vec![3.0, 0.7], choice: None }];
-        let y: Vec<f64> =
-            model.respond(0, &[], &truth).expect("a response")[0].iter().map(|y| y + noise.sample(&mut random)).collect();
-        let observed = [model.lines.observed(&y)];
+        let model = Laws::bump(places);
+        let observed = [model.record(&[Active { mechanism: 0, values: vec![3.0, 0.7], choice: None }], 9)];
         let nothing = fitted(&model, &[0], &observed, &[Hypothesis::NOMINAL]).expect("a fit");
         let found = compose(&model, 0..1, &[0], &observed, &nothing, &|_| ()).expect("composed").expect("a law");
         assert!((found.fit.active[0].values[1] - 0.7).abs() < 0.01, "{places:?}: {:?}", found.fit.active);
@@ -236,12 +201,9 @@ fn a_law_begins_at_the_best_of_its_starts() {
 
 #[test]
 fn a_law_that_others_make_superfluous_is_dropped() {
-    let model = Sum::new();
-    let mut random = SmallRng::seed_from_u64(8);
-    let noise = Normal::new(0.0, WHITE).expect("a density");
-    let y: Vec<f64> =
-        model.column(1).iter().zip(model.column(2)).map(|(a, b)| 2.0 * (a + b) + noise.sample(&mut random)).collect();
-    let observed: [Observation; 1] = [model.lines.observed(&y)];
+    let model = Laws::sum();
+    let truth = [1, 2].map(|mechanism| Active { mechanism, values: vec![2.0], choice: None });
+    let observed = [model.record(&truth, 8)];
     let nothing = fitted(&model, &[0], &observed, &[Hypothesis::NOMINAL]).expect("a fit");
     let laws = |earlier| {
         let breadth = Breadth { terms: 3, earlier, ..Breadth::default() };

@@ -337,13 +337,12 @@ pub(super) fn weave(source: &str, mutants: &[(usize, &Mutant)]) -> Result<Woven,
 
 /// Which mutants a fault at a byte of a woven text belongs to, if to any: those around it, or those of its line.
 pub(super) fn place_of(woven: &str, at: usize) -> Option<Place> {
-    let (mut open, mut last) = (Vec::<Place>::new(), 0);
+    let mut open = Vec::<Place>::new();
     let marks = |text: &str| -> Vec<(usize, String)> {
         text.match_indices("/*").filter_map(|(n, _)| Some((n, text[n + 2..].split_once("*/")?.0.to_owned()))).collect()
     };
     let number = |text: &str| text.split(' ').map(str::parse).collect::<Result<Vec<usize>, _>>().ok();
-    for (n, mark) in marks(woven).into_iter().take_while(|(n, _)| *n < at) {
-        last = n;
+    for (_, mark) in marks(woven).into_iter().take_while(|(n, _)| *n < at) {
         if let Some(ids) = mark.strip_prefix('<').and_then(number) {
             open.push(Place::Mutant(ids[0]));
         } else if let Some(ids) = mark.strip_prefix('(').and_then(number) {
@@ -352,7 +351,6 @@ pub(super) fn place_of(woven: &str, at: usize) -> Option<Place> {
             open.pop();
         }
     }
-    debug_assert!(last <= at);
     open.pop().or_else(|| {
         let start = woven[..at].rfind('\n').map_or(0, |n| n + 1);
         let line = woven[start..].lines().next().unwrap_or_default();

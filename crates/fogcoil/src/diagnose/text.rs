@@ -309,7 +309,7 @@ impl Outcome<'_> {
     fn confirmed(&self, it: &str) -> String {
         match self.far_in_held() {
             Some(over) => format!(
-                "A record that was held out is predicted better so, but {} times the noise of its rate is left in it: the cause is confirmed, its size is not.",
+                "A record that was held out is predicted better by this explanation, but {} times the noise of its rate is left in it: the cause is confirmed, its size is not.",
                 significant(over, 2)
             ),
             None => format!("A record that was held out confirms {it}."),
