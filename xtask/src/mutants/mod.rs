@@ -17,6 +17,7 @@ use proof::files::{read, renew, root};
 use proof::statistics::rate;
 use serde_json::Value;
 
+use self::list::{Mutant, told};
 use self::outcome::{Outcome, Tried, keep, kept};
 use self::runner::runner;
 use self::trial::Tests;
@@ -26,7 +27,7 @@ use self::woven::Woven;
 const TOGETHER: [&str; 1] = ["mechanisms"];
 const PAGE: &str = "docs/trust.md";
 const MARKS: [&str; 2] = ["<!-- mutants: written by `cargo xtask mutants` -->", "<!-- mutants end -->"];
-/// Mutants that nothing can tell from the program, each with the reason: `name: reason` by line.
+/// Mutants that nothing can tell from the program, each with the reason: `name :: reason` by line.
 const ARGUED: &str = "xtask/mutants/argued.txt";
 /// Statuses of the runner after all mutants were tried: caught, some missed, some endless.
 const TRIED: [i32; 3] = [0, 2, 3];
@@ -88,15 +89,15 @@ impl Mutants {
         for (name, share) in CRATES.iter().filter(|(name, _)| self.crates.is_empty() || self.crates.iter().any(|c| c == name)) {
             let woven = woven::woven(name)?;
             let mut of = kept(name)?;
-            // lines move
-            let names: BTreeSet<&str> = woven.mutants.iter().map(|mutant| mutant.name.as_str()).collect();
-            of.outcomes.retain(|name, _| names.contains(name.as_str()));
+            // functions change
+            let keys: BTreeSet<&str> = woven.mutants.iter().map(|mutant| mutant.key.as_str()).collect();
+            of.outcomes.retain(|key, _| keys.contains(key.as_str()));
             (of.all, of.unviable) = (woven.mutants.len(), woven.unviable.len());
             let chosen = |id: &usize| {
-                let mutant = woven.mutants[*id].name.as_str();
-                match of.outcomes.get(mutant) {
+                let key = woven.mutants[*id].key.as_str();
+                match of.outcomes.get(key) {
                     _ if woven.unviable.contains(id) => false,
-                    outcome if self.missed => outcome == Some(&Outcome::Missed) && !argued.contains_key(mutant),
+                    outcome if self.missed => outcome == Some(&Outcome::Missed) && !argued.contains_key(told(key)),
                     Some(_) if self.untried => false,
                     _ => id % (self.parts * share) == self.part * share,
                 }
@@ -105,10 +106,10 @@ impl Mutants {
             let (alone, together): (Vec<usize>, Vec<usize>) = chosen.into_iter().partition(|id| woven.alone.contains(id));
             eprintln!("{name}: {} mutants in one program, {} alone", together.len(), alone.len());
             let mut new = 0;
-            let mut add = |mutant: &str, outcome: Outcome| {
-                let since =
-                    outcome == Outcome::Caught && matches!(of.outcomes.get(mutant), Some(Outcome::Missed | Outcome::CaughtSince));
-                of.outcomes.insert(mutant.to_owned(), if since { Outcome::CaughtSince } else { outcome });
+            let mut add = |mutant: &Mutant, outcome: Outcome| {
+                let old = of.outcomes.get(&mutant.key);
+                let since = outcome == Outcome::Caught && matches!(old, Some(Outcome::Missed | Outcome::CaughtSince));
+                of.outcomes.insert(mutant.key.clone(), if since { Outcome::CaughtSince } else { outcome });
                 new += 1;
                 if new % SAVED == 0 { keep(name, &of) } else { Ok(()) }
             };
@@ -116,8 +117,9 @@ impl Mutants {
             if !alone.is_empty() {
                 let which = |&id: &usize| ["--re".to_owned(), format!("^{}$", regex_of(&woven.mutants[id].name))];
                 let which: Vec<String> = alone.iter().flat_map(which).collect();
-                for (mutant, outcome) in tried(name, &which)? {
-                    add(&mutant, outcome)?;
+                let outcomes = tried(name, &which)?;
+                for mutant in alone.iter().map(|&id| &woven.mutants[id]) {
+                    outcomes.get(&mutant.name).map_or(Ok(()), |&outcome| add(mutant, outcome))?;
                 }
             }
             keep(name, &of)?;
@@ -135,7 +137,7 @@ impl Mutants {
         name: &str,
         woven: &Woven,
         chosen: &[usize],
-        add: &mut impl FnMut(&str, Outcome) -> Result<(), Failure>,
+        add: &mut impl FnMut(&Mutant, Outcome) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let scratch = root().join("target/mutants/reached");
         let tests = Tests::measured(woven.programs.clone(), TOGETHER.contains(&name), self.jobs, &scratch)?;
@@ -162,10 +164,10 @@ impl Mutants {
             drop(sender);
             let mut missed = 0;
             for (n, (id, outcome)) in results.iter().enumerate() {
-                let (mutant, outcome) = (&woven.mutants[id].name, outcome?);
+                let (mutant, outcome) = (&woven.mutants[id], outcome?);
                 if outcome == Outcome::Missed {
                     missed += 1;
-                    println!("missed: {mutant}");
+                    println!("missed: {}", mutant.name);
                 }
                 if (n + 1) % TOLD == 0 || n + 1 == chosen.len() {
                     eprintln!("{} of {}, {missed} missed", n + 1, chosen.len());
@@ -240,7 +242,8 @@ fn table(outcomes: &Outcomes, argued: &BTreeMap<&str, &str>) -> (String, bool) {
             tried.outcomes.iter().filter(move |(_, outcome)| **outcome == wanted).map(|(mutant, _)| mutant.as_str())
         };
         let (caught, since) = (of(Outcome::Caught).count(), of(Outcome::CaughtSince).count());
-        let (argued, survivors): (Vec<&str>, Vec<&str>) = of(Outcome::Missed).partition(|mutant| argued.contains_key(mutant));
+        let (argued, survivors): (Vec<&str>, Vec<&str>) =
+            of(Outcome::Missed).map(told).partition(|mutant| argued.contains_key(mutant));
         let could = caught + since + survivors.len();
         let Some(share) = rate(caught, could) else { continue };
         sound &= (caught + since) as f64 >= CAUGHT * could as f64;

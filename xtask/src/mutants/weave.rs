@@ -421,9 +421,9 @@ fn side(p: Point) -> f64 {
         let of = |(genre, begins, replacement, _): (Genre, &str, &str, &str)| {
             let before = &SOURCE[..SOURCE.find(begins).unwrap()];
             let column = before.len() - before.rfind('\n').unwrap();
-            let [name, file, function, returns] = ["", "", "", ""].map(str::to_owned);
+            let [name, key, file, function, returns] = [""; 5].map(str::to_owned);
             let start = [before.matches('\n').count() + 1, column];
-            Mutant { name, file, function, returns, genre, replacement: replacement.into(), start }
+            Mutant { name, key, file, function, returns, genre, replacement: replacement.into(), start }
         };
         CHANGES.map(of).into()
     }
@@ -481,9 +481,9 @@ fn side(p: Point) -> f64 {
     fn a_condition_that_binds_stays_as_it_is() {
         let source = "fn f(x: Option<u8>) -> bool {\n    if let Some(n) = x && n > 1 { true } else { false }\n}\n";
         let column = source.lines().nth(1).unwrap().find("&&").unwrap() + 1;
-        let [name, file, function, returns] = ["", "", "", ""].map(str::to_owned);
+        let [name, key, file, function, returns] = [""; 5].map(str::to_owned);
         let genre = Genre::BinaryOperator;
-        let mutant = Mutant { name, file, function, returns, genre, replacement: "||".into(), start: [2, column] };
+        let mutant = Mutant { name, key, file, function, returns, genre, replacement: "||".into(), start: [2, column] };
         let woven = weave(source, &[(5, &mutant)]).unwrap();
         assert_eq!((woven.text.as_str(), woven.unplaced), (source, vec![5]));
     }

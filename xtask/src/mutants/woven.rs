@@ -80,7 +80,7 @@ fn listed(copy: &Path, name: &str) -> Result<Vec<Mutant>, Failure> {
             }
         }
         if !changed {
-            return of_json(&list(&["--list", "--json"])?);
+            return of_json(&list(&["--list", "--json"])?, copy);
         }
     }
 }
