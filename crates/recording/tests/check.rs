@@ -340,6 +340,16 @@ fn repeats_conflicts_and_time_that_goes_back() {
     let report = altered(|s| s.time[700] -= 100.0).report();
     assert!(matches!(report.findings[0].kind, FindingKind::Backwards { .. }) && !report.usable());
     assert!(report.findings[0].to_string().contains("sort the rows"));
+
+    // a clock that is put back and runs on: one mistake, and one finding
+    let back = |s: &mut Sample| s.time[700..].iter_mut().for_each(|t| *t -= 3000.0);
+    let report = altered(back).report();
+    let told: Vec<&Finding> = report.findings.iter().filter(|finding| finding.severity == Severity::Error).collect();
+    assert!(
+        matches!(told[..], [Finding { kind: FindingKind::Backwards(2970.0), rows: 100, .. }]) && !report.usable(),
+        "{told:?}"
+    );
+    assert_eq!(told[0].span, Some([18_000.0, 20_970.0]));
 }
 
 #[test]

@@ -98,10 +98,13 @@ impl Instants {
     }
 }
 
-/// The rows whose instants increase: repeats are dropped, wherever the row stands that they repeat; the rest that does not increase is an error.
+/// The rows whose instants increase: repeats are dropped, wherever the row stands that they repeat; the rest that does not increase is an error,
+/// one for all rows in a row that a clock which was put back leaves behind.
 pub(super) fn keep(recording: &Recording, findings: &mut Vec<Finding>) -> Vec<usize> {
     let time = recording.time();
     let mut rows: Vec<usize> = Vec::with_capacity(time.len());
+    // the last row that a clock left behind, and its finding
+    let mut behind: Option<(usize, usize)> = None;
     for row in 0..time.len() {
         let Some(&last) = rows.last() else {
             rows.push(row);
@@ -114,7 +117,13 @@ pub(super) fn keep(recording: &Recording, findings: &mut Vec<Finding>) -> Vec<us
             rows.push(row);
         } else if twin().is_some_and(|twin| same(recording, row, twin)) {
             findings.push(finding(FindingKind::Duplicate, Severity::Note));
+        } else if let Some((_, place)) = behind.filter(|(before, _)| before + 1 == row) {
+            let begun = &mut findings[place];
+            begun.rows += 1;
+            begun.span = begun.span.map(|[from, to]| [from.min(time[row]), to.max(time[row])]);
+            behind = Some((row, place));
         } else if time[row] < time[last] {
+            behind = Some((row, findings.len()));
             findings.push(finding(FindingKind::Backwards(time[last] - time[row]), Severity::Error));
         } else {
             findings.push(finding(FindingKind::Conflict, Severity::Error));
