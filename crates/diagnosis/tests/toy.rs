@@ -2,7 +2,7 @@
 
 use diagnosis::{
     Active, Channel, Contradiction, Diagnosis, ForwardModel, Judged, Latent, NoisePrior, Nuisance, Observation, Omission,
-    Parameter, Prior, Role, Ruling, Settings, State, Structure, Verdict, diagnose,
+    Parameter, Prior, Rival, Role, Ruling, Settings, State, Structure, Verdict, diagnose, gained_by_noise_of,
 };
 
 pub(crate) const ROWS: usize = 600;
@@ -241,6 +241,36 @@ fn a_ripple_that_no_mechanism_makes_is_unknown_and_described() {
     assert_eq!(rival.structure, Structure::PeriodicInLevel);
     let period = rival.at.expect("a period");
     assert!((period / (std::f64::consts::TAU * 1.1) - 1.0).abs() < 0.1, "period {period}");
+}
+
+/// A likelier noise counts for the fit and for the structure beside it, which may have had its part of it already.
+#[test]
+fn what_a_likelier_noise_gains_is_counted_once() {
+    let bath = Bath::new();
+    let record = [observed(&bath, &bath.truth(0, None), 11)];
+    let found = diagnose(&bath, &[0], &record, &Settings::default(), &|_| ()).expect("a diagnosis").best().clone();
+    assert!(found.rival.is_none());
+    // of a fit that stays behind its best by so much, and a structure that had so much
+    let gained = |behind: f64, had: Option<(Structure, usize, f64)>| {
+        let mut of = found.clone();
+        of.fit.log_evidence -= behind;
+        of.rival = had.map(|(structure, channel, gain)| Rival { structure, channel, at: None, gain });
+        gained_by_noise_of(&bath, &[0], &record, &of, &found.fit).expect("a fit")
+    };
+    for behind in [-5.0, 0.0, 5.0] {
+        let gain = gained(behind, None);
+        assert!(gain >= 0.0 && (gain - behind.max(0.0)).abs() < 0.05, "{behind}: {gain}");
+    }
+    // noise holds no structure: each has its own small gain, to which all else is added
+    let own = [Structure::PeriodicInLevel, Structure::Step].map(|of| gained(0.0, Some((of, 0, -20.0))) - 20.0);
+    assert!(own[0].abs() < 10.0 && own[1].abs() < 10.0 && (own[0] - own[1]).abs() > 0.1, "{own:?}");
+    for (behind, had) in [(0.0, -30.0), (5.0, -20.0), (-8.0, -14.0)] {
+        let gain = gained(behind, Some((Structure::Step, 0, had)));
+        assert!((gain - (own[1] + behind - had)).abs() < 0.1, "{behind} {had}: {gain}");
+    }
+    // the structure of another channel is another one
+    let gain = gained(3.0, Some((Structure::Step, 1, -20.0)));
+    assert!((gain - 3.0).abs() < 0.05, "{gain}");
 }
 
 #[test]
