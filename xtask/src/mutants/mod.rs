@@ -68,6 +68,9 @@ pub(crate) struct Mutants {
     /// Go on with a run that was stopped: try the changes that have no outcome yet
     #[arg(long, conflicts_with = "missed")]
     untried: bool,
+    /// Leave out tests that take longer; a change that they alone could catch gets no outcome, unless it is argued away
+    #[arg(long, value_name = "SECONDS")]
+    slowest: Option<f64>,
     /// Trials at once
     #[arg(long, value_name = "N", default_value_t = 2)]
     jobs: usize,
@@ -113,7 +116,7 @@ impl Mutants {
                 new += 1;
                 if new % SAVED == 0 { keep(name, &of) } else { Ok(()) }
             };
-            self.all_tried(name, &woven, &together, &mut add)?;
+            self.all_tried(name, &woven, &together, &argued, &mut add)?;
             if !alone.is_empty() {
                 let which = |&id: &usize| ["--re".to_owned(), format!("^{}$", regex_of(&woven.mutants[id].name))];
                 let which: Vec<String> = alone.iter().flat_map(which).collect();
@@ -137,6 +140,7 @@ impl Mutants {
         name: &str,
         woven: &Woven,
         chosen: &[usize],
+        argued: &BTreeMap<&str, &str>,
         add: &mut impl FnMut(&Mutant, Outcome) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let scratch = root().join("target/mutants/reached");
@@ -154,7 +158,8 @@ impl Mutants {
                     while let Some(ids) = queue.lock().ok().and_then(|mut queue| queue.next()) {
                         let mut killers = BTreeMap::new();
                         for id in ids {
-                            if sender.send((id, tests.outcome(id, &mut killers))).is_err() {
+                            let outcome = tests.outcome(id, self.slowest.unwrap_or(f64::INFINITY), &mut killers);
+                            if sender.send((id, outcome)).is_err() {
                                 return;
                             }
                         }
@@ -162,17 +167,18 @@ impl Mutants {
                 });
             }
             drop(sender);
-            let mut missed = 0;
+            let mut left = 0;
             for (n, (id, outcome)) in results.iter().enumerate() {
                 let (mutant, outcome) = (&woven.mutants[id], outcome?);
-                if outcome == Outcome::Missed {
-                    missed += 1;
-                    println!("missed: {}", mutant.name);
+                if outcome != Some(Outcome::Caught) {
+                    left += 1;
+                    println!("{}: {}", if outcome.is_none() { "open" } else { "missed" }, mutant.name);
                 }
                 if (n + 1) % TOLD == 0 || n + 1 == chosen.len() {
-                    eprintln!("{} of {}, {missed} missed", n + 1, chosen.len());
+                    eprintln!("{} of {}, {left} not caught", n + 1, chosen.len());
                 }
-                add(mutant, outcome)?;
+                let argued = argued.contains_key(told(&mutant.key)).then_some(Outcome::Missed);
+                outcome.or(argued).map_or(Ok(()), |outcome| add(mutant, outcome))?;
             }
             Ok(())
         })

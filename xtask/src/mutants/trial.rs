@@ -112,9 +112,16 @@ impl Tests {
         Ok(Self { programs, tests, together })
     }
 
-    /// Whether a test fails, or never ends, while a mutant acts; `killers` counts the mutants of this function that each test caught.
-    pub(super) fn outcome(&self, id: usize, killers: &mut BTreeMap<usize, usize>) -> Result<Outcome, Failure> {
-        let mut reaching: Vec<usize> = (0..self.tests.len()).filter(|&n| self.tests[n].reaches.contains(&id)).collect();
+    /// Whether a test fails, or never ends, while a mutant acts; `killers` counts the mutants of this function that each test caught. Tests that take
+    /// more than `slowest` seconds are left out: `None` if such a test alone could tell.
+    pub(super) fn outcome(
+        &self,
+        id: usize,
+        slowest: f64,
+        killers: &mut BTreeMap<usize, usize>,
+    ) -> Result<Option<Outcome>, Failure> {
+        let reaching = (0..self.tests.len()).filter(|&n| self.tests[n].reaches.contains(&id));
+        let (mut reaching, left_out): (Vec<usize>, Vec<usize>) = reaching.partition(|&n| self.tests[n].takes <= slowest);
         reaching.sort_by_key(|n| std::cmp::Reverse(killers.get(n).copied().unwrap_or_default()));
         let mut rounds: Vec<Vec<usize>> = Vec::new();
         if let Some(&first) = reaching.first().filter(|n| killers.contains_key(n)) {
@@ -133,10 +140,10 @@ impl Tests {
         for round in rounds.iter().filter(|round| !round.is_empty()) {
             if let Some(killer) = self.killer(id, round)? {
                 *killers.entry(killer).or_default() += 1;
-                return Ok(Outcome::Caught);
+                return Ok(Some(Outcome::Caught));
             }
         }
-        Ok(Outcome::Missed)
+        Ok(left_out.is_empty().then_some(Outcome::Missed))
     }
 
     /// The test of those of one program that fails or does not end while a mutant acts.
