@@ -18,10 +18,12 @@ const STRAINED: f64 = 1.0;
 const STRAYED: f64 = 3.0;
 /// Share of the leader's gain from which another mechanism is followed, too: about the drawing nobody can tell which of two strong ones it is.
 const RIVALS: f64 = 0.5;
-/// Ways of a usual record: constants alone, the leader beside them, one rival.
-const USUAL_WAYS: usize = 3;
-/// Most hypotheses that are followed so from each of the two rounds in which all are tried: both flanges, of a mechanism that may be at either.
-const FOLLOWED: usize = 2;
+/// Rounds of a usual record: of the constants alone, the leader beside them, one rival.
+const USUAL: usize = 3 * ROUNDS;
+/// Most hypotheses that are tried so from each of the two rounds in which all are: where many do nearly the same about the drawing, their order says little.
+const NEAR: usize = 6;
+/// Most of them that are followed to the end, those that are the likeliest when they were tried: both flanges, of a mechanism that may be at either, and another one.
+const FOLLOWED: usize = 3;
 /// Most choices of the leader's own mechanism that are followed so, where it has few: the other flange.
 const ELSEWHERE: usize = 1;
 /// Choices of a mechanism that are tried.
@@ -101,8 +103,8 @@ pub fn settled<M: ForwardModel>(
     progress: &dyn Fn(Step),
 ) -> Result<Settled<M>, Error> {
     let mut steps = 0;
-    let mut told = |starts: usize, ways: usize| {
-        progress(Step::counted(TASK, steps, 1 + starts + ways * ROUNDS - TRIED));
+    let mut told = |starts: usize, rounds: usize| {
+        progress(Step::counted(TASK, steps, 1 + starts + rounds - TRIED));
         steps += 1;
     };
     let way = |start: Option<&Vec<f64>>| -> Result<Way<M>, Error> {
@@ -117,20 +119,20 @@ pub fn settled<M: ForwardModel>(
         let evidence = tried.settled()?.log_evidence;
         Ok((tried, evidence))
     };
-    told(0, USUAL_WAYS);
+    told(0, USUAL);
     let (mut alone, mut likeliest) = tried(None, false)?;
     let mut first = None;
     let starts = alone.known.as_ref().map_or_else(Vec::new, |known| model.starts(&known.nuisances[0]));
     for start in &starts {
-        told(starts.len(), USUAL_WAYS);
+        told(starts.len(), USUAL);
         let (other, evidence) = tried(Some(start), false)?;
         if evidence > likeliest {
             (alone, likeliest, first) = (other, evidence, Some(start));
         }
     }
-    let mut told = |ways: usize| told(starts.len(), ways);
+    let mut told = |rounds: usize| told(starts.len(), rounds);
     while !alone.arrived {
-        told(USUAL_WAYS);
+        told(USUAL);
         alone.go_on(false)?;
     }
     let recalibrated = alone.settled()?;
@@ -150,29 +152,36 @@ pub fn settled<M: ForwardModel>(
     }
     // the constants alone may have made up for a mechanism by the start that they prefer
     let (mut beside, first) = if first.is_some() {
-        told(USUAL_WAYS);
+        told(USUAL);
         let [(drawn, of_drawn), (other, of_other)] = [tried(None, true)?, tried(first, true)?];
         if of_other > of_drawn { (other, first) } else { (drawn, None) }
     } else {
         (way(None)?, None)
     };
     while !beside.arrived {
-        told(USUAL_WAYS);
+        told(USUAL);
         beside.go_on(true)?;
     }
     let mut leader = beside.settled()?;
     // about the leader's constants a rival may look much worse than it is: what it comes to by itself counts
-    let mut rivals = Vec::new();
-    let others = std::mem::take(&mut beside.rivals);
-    let ways = 2 + others.len();
+    let mut others = std::mem::take(&mut beside.rivals);
+    others.retain(|rival| *rival != leader.hypothesis);
+    let rounds = 2 * ROUNDS + others.len() * TRIED + others.len().min(FOLLOWED) * (ROUNDS - TRIED);
+    let mut near = Vec::new();
     for rival in others {
-        let is_followed = |(fit, _): &(Fit, _)| fit.hypothesis == rival;
-        if rival == leader.hypothesis || rivals.iter().any(is_followed) {
-            continue;
-        }
         let mut other = Way { only: Some(rival), ..way(first)? };
+        for _ in 0..TRIED {
+            told(rounds);
+            other.go_on(true)?;
+        }
+        let evidence = other.settled()?.log_evidence;
+        near.push((evidence, other));
+    }
+    near.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut rivals = Vec::new();
+    for (_, mut other) in near.into_iter().take(FOLLOWED) {
         while !other.arrived {
-            told(ways);
+            told(rounds);
             other.go_on(true)?;
         }
         let mut led = other.settled()?;
@@ -327,7 +336,7 @@ fn leader(
     let (own, others): (Vec<&Hypothesis>, Vec<&Hypothesis>) = near.into_iter().partition(|near| mechanism(near) == leads);
     // of many choices a few are tried, and none of these is better known than its neighbours
     let has_few = leads.is_some_and(|mechanism| alternatives(model, mechanism).len() <= CHOICES);
-    let next = others.into_iter().take(FOLLOWED).chain(own.into_iter().take(if has_few { ELSEWHERE } else { 0 }));
+    let next = others.into_iter().take(NEAR).chain(own.into_iter().take(if has_few { ELSEWHERE } else { 0 }));
     let rivals = next.cloned().collect();
     // what the leader leaves is noise: the next round compares under that
     let noise = best.noise.refitted(model.channels(), observations, &best.residuals)?;

@@ -61,6 +61,12 @@ fn both_bent(_: usize, about_itself: bool, x: f64) -> f64 {
     bent(WORKS, about_itself, x)
 }
 
+/// The same among others that look like it, each with something of its own.
+fn one_of_many(mechanism: usize, about_itself: bool, x: f64) -> f64 {
+    let beside = (8.0 + mechanism as f64) * x;
+    if mechanism < 2 { bent(mechanism, about_itself, x) } else { (5.0 * x).sin() + 0.05 * beside.cos() }
+}
+
 fn x() -> impl Iterator<Item = f64> {
     (0..ROWS).map(|n| n as f64 / (ROWS - 1) as f64)
 }
@@ -101,6 +107,15 @@ impl Pair {
         let mut pair = Self::new(effect, [1.0; 2], about);
         pair.mechanisms[LOOKS].choice = Some(("place".into(), (1..=9).map(f64::from).collect()));
         pair
+    }
+
+    /// Four more beside the two.
+    fn with_a_crowd(effect: fn(usize, bool, f64) -> f64) -> Self {
+        let mut crowd = Self::new(effect, [1.0; 2], None);
+        crowd
+            .mechanisms
+            .extend((2..6).map(|n| Omission { id: format!("looks {n}"), ..crowd.mechanisms[LOOKS].clone() }).collect::<Vec<_>>());
+        crowd
     }
 
     /// Which of the two is at work: a mechanism, or the place of the only one.
@@ -236,6 +251,15 @@ fn a_mechanism_is_followed_at_its_other_place_too() {
 fn a_rival_of_a_mechanism_with_many_places_is_followed() {
     let settled = settled(&Pair::with_many_places(bent, None), &[0], &[observed()], &|_| ()).expect("a fit");
     assert_eq!(settled.leading.expect("one leads").active[0].mechanism, WORKS);
+}
+
+/// About the drawing five others look more like what is at work than it does itself.
+#[test]
+fn one_of_many_that_look_alike_is_followed_to_where_it_leads() {
+    let settled = settled(&Pair::with_a_crowd(one_of_many), &[0], &[observed()], &|_| ()).expect("a fit");
+    let leading = settled.leading.expect("one leads");
+    assert_eq!(leading.active[0].mechanism, WORKS);
+    assert!((leading.active[0].values[0] - TRUTH).abs() < 0.1, "{:?}", leading.active);
 }
 
 /// Nothing tells the two from one another: the one that does not lead has no model about it in the comparison, but what it came to about itself.
