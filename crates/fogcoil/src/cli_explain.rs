@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &Explain, progress: &Progress) -> Result<(), Error>
             let result = progress.tasks(|tell| explain::explain(&case, *measured, !signed, &cache, tell))?;
             (explain::json(&result), explain::text(&case, &result))
         }
-        (Some(file), None) if file.is_file() && file.extension().is_some_and(|end| end == "ron") => {
+        (Some(file), None) if file.is_file() && file.extension().is_some_and(|end| end == "ron" || end == "json") => {
             if input::is_coil(file) {
                 let text =
                     "is a coil file; add --sensitivity S, as it was measured, and the changes that would give it are explained";
@@ -62,7 +62,7 @@ fn look_up(id: &Path) -> Result<glossary::Entry, Error> {
     glossary::look_up(&id.to_string_lossy()).map_err(|near| {
         if id.exists() {
             let text =
-                "give an id, a mechanism's file (*.ron), or a coil's with --sensitivity S; `fogcoil check` reads recordings";
+                "give an id, a mechanism's file (*.ron or *.json), or a coil's with --sensitivity S; `fogcoil check` reads recordings";
             return Error::usage(format!("{name}: is no mechanism's file; {text}"));
         }
         let (near, none) = (near.join(", "), if id.extension().is_some() { "no file, and no id" } else { "no id" });

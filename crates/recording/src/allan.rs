@@ -4,11 +4,8 @@
 //! deviation falls as τ⁻¹ where quantisation rules, as τ^−½ where white noise does, is flat at the bias instability and rises as τ^½
 //! where rate random walk does. A deterministic signal in the series shows as noise: take it off first.
 
-use std::cmp::Reverse;
-use std::ops::Range;
-
 use crate::Error;
-use crate::series::{GAP, check_series, median_interval};
+use crate::series::{check_series, median_interval};
 use crate::statistics::chi_square_quantile;
 
 /// One point of an Allan plot.
@@ -35,12 +32,13 @@ pub const CONFIDENCE: f64 = 0.9;
 const PER_OCTAVE: f64 = 2.0;
 /// Share of a mean's rows that have to be there.
 const COMPLETE: f64 = 0.9;
-/// Slots of the even lattice for each row; a series with more holes than that is cut to its longest stretch.
-const MOST_SLOTS: usize = 20;
+/// Slots of the even lattice for each row: where gaps ask for more, they are shortened, to lengths that no mean spans.
+const MOST_SLOTS: f64 = 20.0;
 /// Shortest series \[rows\].
 const SHORTEST: usize = 8;
 
-/// Overlapping Allan deviation of a series at about evenly spaced instants, from one interval to a third of its length.
+/// Overlapping Allan deviation of a series at about evenly spaced instants, from one interval to a third of its length. It may have pauses of any length, which
+/// no mean spans; all that lies between them counts.
 ///
 /// Rows where `mask` is `false`, and instants that are missing, are left out of the means; a mean needs nine tenths of its rows.
 ///
@@ -52,7 +50,7 @@ pub fn allan(time: &[f64], values: &[f64], mask: &[bool]) -> Result<Vec<AllanPoi
         return Err(Error::TooFew { found: used, needed: SHORTEST });
     };
     let lattice = Lattice::new(time, values, mask, interval);
-    let longest = lattice.slots() / 3;
+    let longest = lattice.longest;
     let mut spans: Vec<usize> =
         (0..).map(|i| (f64::from(i) / PER_OCTAVE).exp2() as usize).take_while(|m| *m <= longest).collect();
     spans.dedup();
@@ -98,28 +96,33 @@ fn freedom(m: f64, terms: f64, slope: f64) -> f64 {
 struct Lattice {
     sums: Vec<f64>,
     counts: Vec<u32>,
+    /// Slots of the longest mean.
+    longest: usize,
 }
 
 impl Lattice {
     fn new(time: &[f64], values: &[f64], mask: &[bool], interval: f64) -> Self {
-        let steps = |pair: &[f64]| ((pair[1] - pair[0]) / interval).round().max(1.0);
-        let slots: f64 = 1.0 + time.windows(2).map(steps).sum::<f64>();
-        let rows = if slots > (MOST_SLOTS * time.len()) as f64 { longest_stretch(time, interval) } else { 0..time.len() };
-        let used = rows.clone().filter(|&row| mask[row]);
+        let empty = |pair: &[f64]| ((pair[1] - pair[0]) / interval).round().max(1.0) - 1.0;
+        let gaps: Vec<f64> = time.windows(2).map(empty).filter(|empty| *empty > 0.0).collect();
+        let (rows, all) = (time.len() as f64, gaps.iter().sum::<f64>());
+        let most = if rows + all > MOST_SLOTS * rows { (MOST_SLOTS * rows / gaps.len() as f64).floor() } else { f64::INFINITY };
+        let used = (0..time.len()).filter(|&row| mask[row]);
         let mean = used.clone().map(|row| values[row]).sum::<f64>() / used.count().max(1) as f64;
         let (mut sums, mut counts) = (vec![0.0], vec![0]);
         let mut push = |value: Option<f64>| {
             sums.push(sums[sums.len() - 1] + value.unwrap_or(0.0));
             counts.push(counts[counts.len() - 1] + u32::from(value.is_some()));
         };
-        for row in rows.clone() {
-            if row > rows.start {
-                let empty = steps(&time[row - 1..=row]) as usize - 1;
-                (0..empty).for_each(|_| push(None));
+        for row in 0..time.len() {
+            if row > 0 {
+                (0..empty(&time[row - 1..=row]).min(most) as usize).for_each(|_| push(None));
             }
             push(mask[row].then(|| values[row] - mean));
         }
-        Self { sums, counts }
+        // a mean that lacks a shortened gap is not complete
+        let spoilt = most / (1.0 - COMPLETE);
+        let longest = ((sums.len() - 1) / 3).min(spoilt.ceil() as usize - 1);
+        Self { sums, counts, longest }
     }
 
     fn slots(&self) -> usize {
@@ -140,14 +143,9 @@ impl Lattice {
                 terms += 1;
             }
         }
-        (terms > 0).then(|| (squares / (2.0 * terms as f64), terms))
+        // as many as a whole series has of means over a third of it
+        (terms >= m).then(|| (squares / (2.0 * terms as f64), terms))
     }
-}
-
-fn longest_stretch(time: &[f64], interval: f64) -> Range<usize> {
-    let rows: Vec<usize> = (0..time.len()).collect();
-    let stretches = rows.chunk_by(|&a, &b| time[b] - time[a] <= GAP * interval);
-    stretches.min_by_key(|rows| Reverse(rows.len())).map_or(0..0, |rows| rows[0]..rows[0] + rows.len())
 }
 
 #[cfg(test)]
@@ -192,14 +190,5 @@ mod tests {
         }
         // printed by Riley, NIST SP 1065: 1000 frequencies, m = 10, white noise
         assert!((freedom(10.0, 981.0, -0.5) - 146.177).abs() < 5e-4);
-    }
-
-    #[test]
-    fn islands_are_told_apart_at_any_interval() {
-        for interval in [0.01, 30.0] {
-            let time: Vec<f64> = (0..100).map(|i| f64::from(i) * interval + if i >= 40 { 1e6 * interval } else { 0.0 }).collect();
-            assert_eq!(longest_stretch(&time, interval), 40..100);
-        }
-        assert_eq!(longest_stretch(&[], 1.0), 0..0);
     }
 }

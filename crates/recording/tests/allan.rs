@@ -94,9 +94,39 @@ fn holes_change_little() {
         assert_eq!(a.tau, b.tau);
         assert!((a.deviation / b.deviation).ln().abs() < 0.15, "{a:?} {b:?}");
     }
-    // a series of islands is cut to its longest
+    // no mean spans the pause between two islands
     let time: Vec<f64> = (0..100).map(|i| f64::from(i) + if i >= 60 { 1e9 } else { 0.0 }).collect();
-    assert!(allan(&time, &values[..100], &[true; 100]).unwrap().iter().all(|point| point.tau <= 20.0));
+    assert!(allan(&time, &values[..100], &[true; 100]).unwrap().iter().all(|point| point.tau <= 30.0));
+}
+
+/// Bursts of ten rows: a pause of any length between them is a pause, and all of them count.
+#[test]
+fn exact_the_length_of_a_pause_is_no_matter() {
+    let mut random = Random::new(5);
+    let values: Vec<f64> = (0..2000).map(|_| random.normal()).collect();
+    let bursts = |pause: f64| {
+        let time: Vec<f64> = (0..2000).map(|n| f64::from(n) + f64::from(n / 10) * pause).collect();
+        allan(&time, &values, &[true; 2000]).expect("points")
+    };
+    let [near, far, farthest] = [15.0, 40.0, 1e6].map(bursts);
+    assert!(near.len() > 3 && near[0].freedom > 1000.0, "{near:?}");
+    assert!((near[0].deviation - 1.0).abs() < 0.05, "{near:?}");
+    for other in [far, farthest] {
+        assert_eq!(other.len(), near.len());
+        assert!(
+            near.iter().zip(&other).all(|(a, b)| a.tau == b.tau && (a.deviation / b.deviation - 1.0).abs() < 1e-9),
+            "{other:?}"
+        );
+    }
+    // what stands before a pause and is not used takes nothing from what is; beyond ten rows a mean may lack one
+    let time: Vec<f64> = (0..2000).map(|n| f64::from(n) + if n < 1100 { 0.0 } else { 2e5 }).collect();
+    let mask: Vec<bool> = (0..2000).map(|n| n >= 1100).collect();
+    let alone = allan(&time[1100..], &values[1100..], &[true; 900]).expect("points");
+    let after = allan(&time, &values, &mask).expect("points");
+    assert!(
+        alone.iter().zip(&after).take_while(|(a, _)| a.tau < 10.0).all(|(a, b)| (a.deviation / b.deviation - 1.0).abs() < 1e-9),
+        "{after:?}"
+    );
 }
 
 #[test]

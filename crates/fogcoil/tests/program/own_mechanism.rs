@@ -133,7 +133,7 @@ fn what_cannot_be_is_refused_with_line_and_remedy() {
     std::fs::create_dir(folder.path("debond")).unwrap();
     assert!(stdout(&folder.run(&["explain", "debond"])).starts_with("debond: "));
     refused(&[&simulate[..], &["debond"]].concat(), "`debond` is one of the program's");
-    refused(&["explain", "p.csv"], "p.csv: is no mechanism's file; give an id, a mechanism's file (*.ron)");
+    refused(&["explain", "p.csv"], "p.csv: is no mechanism's file; give an id, a mechanism's file (*.ron or *.json)");
     assert_eq!(text(&folder), include_str!("../../templates/mechanism.ron"), "nothing was overwritten");
 }
 
