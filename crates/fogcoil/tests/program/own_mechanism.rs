@@ -90,6 +90,26 @@ fn a_law_that_is_no_number_is_told_by_its_line() {
 }
 
 #[test]
+fn a_mechanism_in_json_is_explained_and_its_fault_told() {
+    let folder = folder();
+    let json = |law: &str| {
+        format!(
+            r#"{{"id": "warm-board", "title": "A warm board", "stage": "Electronics", "meaning": "a rate for every kelvin", "inspection": "warm it",
+            "signature": "it lasts", "source": "none", "parameters": [{{"name": "size", "unit": "deg/h/K", "prior": {{"Normal": [0.0, 0.01]}}}}],
+            "laws": [{{"Rate": "{law}"}}]}}"#
+        )
+    };
+    folder.write("m.json", json("size * spool"));
+    let output = folder.run(&["explain", "m.json"]);
+    let text = stdout(&output);
+    assert!(text.starts_with("warm-board: A warm board") && text.contains("size * spool"), "{text}{}", stderr(&output));
+    folder.write("m.json", json("size * spol"));
+    let output = folder.run(&["explain", "m.json"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("m.json:3: laws[0]: `spol` is not known"), "{}", stderr(&output));
+}
+
+#[test]
 fn what_cannot_be_is_refused_with_line_and_remedy() {
     let folder = folder();
     let refused = |arguments: &[&str], says: &str| {
