@@ -8,4 +8,5 @@ mod exact_whitener;
 mod figures;
 mod held;
 mod identify;
+mod outliers;
 mod ramp;
