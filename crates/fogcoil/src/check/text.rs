@@ -160,7 +160,11 @@ fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
         Some((tau, floor)) => {
             let error = estimate.relative_error(|model| model.allan_deviation(tau, noise.interval));
             let at = format!("deg/h, at {} s", Seconds(tau.round()));
-            rows.push(row("bias instability, the Allan floor", floor, error, &at));
+            let mut line = row("bias instability, the Allan floor", floor, error, &at);
+            if noise.is_bound {
+                line[1] = format!("at most {}", line[1]);
+            }
+            rows.push(line);
         }
         None => rows.push(vec![
             "bias instability, the Allan floor".into(),
