@@ -5,7 +5,6 @@ use recording::Seconds;
 use recording::lines::{Line, has_line, strongest};
 use recording::noise::{NoiseModel, Whitener};
 
-use super::GyroNoise;
 use crate::input::RATE;
 use crate::table::significant;
 
@@ -49,9 +48,9 @@ pub(super) fn of(lines: Vec<Line>, time: &[f64], temperature: Option<(&'static s
 }
 
 /// A warning of the lines.
-pub(super) fn lined(noise: &GyroNoise) -> Option<Note> {
-    let most = noise.lines.iter().max_by(|a, b| a.line.amplitude().total_cmp(&b.line.amplitude()))?;
-    let others = match noise.lines.len() {
+pub(super) fn lined(lines: &[RateLine]) -> Option<Note> {
+    let most = lines.iter().max_by(|a, b| a.line.amplitude().total_cmp(&b.line.amplitude()))?;
+    let others = match lines.len() {
         1 => String::new(),
         2 => ", and another".into(),
         more => format!(", and {} others", more - 1),

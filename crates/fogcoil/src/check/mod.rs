@@ -130,7 +130,7 @@ impl<'a> Analysis<'a> {
         let noise = if usable { gyro_noise(case) } else { None };
         let seen = usable.then(|| [spool_first(case), jumped(case), starts_off_rest(case)]).into_iter().flatten().flatten();
         let contradicted = if usable { contradictions(case) } else { Vec::new() };
-        let lined = noise.as_ref().and_then(lined);
+        let lined = noise.as_ref().and_then(|noise| lined(&noise.lines));
         let notes = case.notes.iter().cloned().chain(seen).chain(contradicted).chain(lined).collect();
         Self { case, notes, noise }
     }
