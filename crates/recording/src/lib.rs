@@ -5,6 +5,7 @@ pub mod check;
 pub mod condition;
 mod error;
 pub mod lag;
+pub mod lines;
 pub mod minimise;
 pub mod noise;
 pub mod ramp;

@@ -60,7 +60,7 @@ pub(crate) fn expectations() -> Expectations {
 }
 
 impl Sample {
-    fn report(self) -> Report {
+    pub(crate) fn report(self) -> Report {
         self.report_of(&expectations())
     }
 

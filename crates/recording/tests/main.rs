@@ -8,4 +8,6 @@ mod exact_whitener;
 mod figures;
 mod held;
 mod identify;
+mod lines;
+mod outliers;
 mod ramp;

@@ -249,6 +249,29 @@ fn hysteresis_needs_rests_at_one_temperature() {
     assert_eq!(once.hysteresis, Err(Absent::NoRest));
 }
 
+/// Ramps of 80 minutes between 20, 60, 20 and -20 degC, each held for so many minutes.
+fn held(minutes: f64) -> Vec<(f64, f64)> {
+    let corners = [20.0, 60.0, 20.0, -20.0, 20.0, 60.0];
+    let every = 4800.0 + 60.0 * minutes;
+    let at = |(n, t): (usize, &f64)| [(every * n as f64, *t), (every * n as f64 + 60.0 * minutes, *t)];
+    corners.iter().enumerate().flat_map(at).collect()
+}
+
+/// A temperature that is held, but not until slow responses have settled, is said to be held; held as long as is said it tells.
+#[test]
+fn a_short_rest_is_a_rest_that_was_short() {
+    let of = |minutes: f64| Record::of(&UNIT, &held(minutes), &noise(), 0.01, 3).respond().unwrap().hysteresis;
+    let Err(short) = of(30.0) else { panic!("30 minutes are enough") };
+    let Absent::ShortRest { lag, needed } = short else { panic!("{short}") };
+    assert!((1400.0..1900.0).contains(&lag) && (2.3..2.8).contains(&(needed / lag)), "{short}");
+    assert!(
+        short.to_string().starts_with("a temperature is held after heating and after cooling too, but left before "),
+        "{short}"
+    );
+    let long = of((needed / 60.0).ceil() + 1.0);
+    assert!(!matches!(long, Err(Absent::ShortRest { .. } | Absent::NoRest)), "{long:?}");
+}
+
 /// Steps of five minutes between temperatures, with rests of so many seconds: 40 and 20 degC, reached from either side, and 0.
 fn steps(rest: f64) -> Vec<(f64, f64)> {
     let levels = [20.0, 40.0, 60.0, 40.0, 20.0, 0.0, -20.0, 0.0, 20.0];

@@ -12,8 +12,9 @@ use super::record_options::{Key, RecordOptions};
 use super::rows::quoted;
 use super::sniff::{Sniffed, sniff};
 use super::sniff_columns::{
-    Found, date_and_time, find, holds, is_instant, perhaps, perhaps_temperatures, unit, unused_temperatures,
+    Found, date_and_time, find, holds, is_instant, perhaps, perhaps_temperatures, unit, unread_instants, unused_temperatures,
 };
+use super::timestamp::FORMS;
 use crate::Error;
 
 /// Most lines of temperatures that are not used.
@@ -160,6 +161,15 @@ fn asides(table: &Sniffed, map: &MapFile, taken: &[usize], missing: &[Key]) -> V
     let (mut asides, mut instants) = (Vec::new(), taken.to_vec());
     for key in missing {
         let columns = perhaps(table, *key, &instants);
+        let unread = if *key == Key::Time && columns.is_empty() { unread_instants(table, &instants) } else { Vec::new() };
+        if !unread.is_empty() {
+            asides.push(format!(
+                "no column's name says that it is the time; these seem to hold instants in a form that is not read: write them as numbers, or dates like {FORMS}; or write interval_s: SECONDS:"
+            ));
+            asides.extend(unread.iter().take(MOST_ASIDES).map(|column| line(*key, *column, "")));
+            instants.extend(unread);
+            continue;
+        }
         let without =
             if *key == Key::Time { "dates need none; without instants write interval_s: SECONDS" } else { "or give a scale" };
         asides.push(format!(

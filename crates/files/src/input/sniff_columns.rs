@@ -68,6 +68,20 @@ pub(super) fn is_instant(field: &str) -> bool {
     is_date(field) || time_of_day(field).is_some()
 }
 
+/// Columns, none of those that are `taken`, that seem to hold instants in a form that is not read: numbers between other signs, each row another.
+pub(super) fn unread_instants(table: &Sniffed, taken: &[usize]) -> Vec<usize> {
+    let seems = |field: &str| {
+        let numbers = field.split(|c: char| !c.is_ascii_digit()).filter(|digits| !digits.is_empty());
+        number(field).is_none() && numbers.count() >= INSTANT_NUMBERS
+    };
+    let differ = |column: usize| table.rows.windows(2).all(|rows| rows[0][column] != rows[1][column]);
+    let is = |column: &usize| !taken.contains(column) && holds(table, *column, seems) && differ(*column);
+    (0..table.names.len()).filter(is).collect()
+}
+
+/// Fewest numbers in an instant that is no number itself: a day, hours and minutes.
+const INSTANT_NUMBERS: usize = 3;
+
 fn number(field: &str) -> Option<f64> {
     field.trim().replace(',', ".").parse().ok()
 }

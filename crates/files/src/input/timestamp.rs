@@ -45,7 +45,7 @@ pub(super) enum First {
     Month,
 }
 
-/// Reads `2024-05-01T12:00:00.5+02:00`, `01.05.2024 12:00:00.5`, `01.05.24 12:00` of this century, or `01-May-2024 12:00:00 PM`; a blank may stand for the T, a comma for the
+/// Reads `2024-05-01T12:00:00.5+02:00`, by the day of the year `2024-122T12:00:00`, `01.05.2024 12:00:00.5`, `01.05.24 12:00` of this century, or `01-May-2024 12:00:00 PM`; a blank may stand for the T, a comma for the
 /// point, and the zone, then UTC, be absent.
 pub(crate) fn date(text: &str) -> Option<Date> {
     dated(text, day_of)
@@ -87,6 +87,22 @@ pub(super) fn time_of_day(text: &str) -> Option<f64> {
 
 /// Year, month and day.
 fn day_of(text: &str) -> Option<(i64, i64, i64)> {
+    ordinal(text).or_else(|| calendar(text))
+}
+
+/// Year, month and day of `2024-122`, the day of the year (ISO 8601). Those beyond the year are days that December does not have.
+fn ordinal(text: &str) -> Option<(i64, i64, i64)> {
+    let (year, day) = text.split_once('-').filter(|(year, day)| (year.len(), day.len()) == (4, 3))?;
+    let (year, mut day) = (whole(year)?, whole(day).filter(|day| (1..=366).contains(day))?);
+    let mut month = 1;
+    while month < 12 && day > length(year, month) {
+        day -= length(year, month);
+        month += 1;
+    }
+    Some((year, month, day))
+}
+
+fn calendar(text: &str) -> Option<(i64, i64, i64)> {
     let three = |separator: char| {
         let mut parts = text.split(separator).map(str::trim);
         let three = [parts.next()?, parts.next()?, parts.next()?];
@@ -199,6 +215,9 @@ mod tests {
             ("2024-05-01T12:00:00-0030", 1_714_566_600.0),
             ("2024-05-01t10:00+00", 1_714_557_600.0),
             ("1969-12-31T23:59:59Z", -1.0),
+            ("2026-073 06:00:30", 1_773_468_030.0),
+            ("2024-366T00:00:00Z", 1_735_603_200.0),
+            ("1970-001 00:00:01", 1.0),
             ("01.05.2024 12:00:00.5+02:00", 1_714_557_600.5),
             ("29.02.2000 12:00", 951_825_600.0),
             ("01.01.1970T00:00:01,25", 1.25),
@@ -220,13 +239,21 @@ mod tests {
             "", "12:00:00", "20.5", "2024-05-01", "2024-13-01T00:00:00", "2024-05-01T25:00:00", "2024-05-01T10:00:00+2",
             "2024-05-01T1:2:3:4", "2024-05-01_10:00:00", "2024-05-0\u{e9}T10:00:00", "2024-05-01T10:00:00+0\u{e9}",
             "05/01/2024 10:00:00", "2024.05.01 10:00:00", "01-05-2024 10:00:00", "01.13.2024 10:00:00", "01.5.20241 10:00:00", "01.5.202 10:00",
-            "14-Mar-2026 13:00 AM", "14-Foo-2026 08:00", "14-Mar-26 08:00", "2024/05/01", "m", "\u{e4}", "1-1-1-1 08:00",
+            "14-Mar-2026 13:00 AM", "14-Foo-2026 08:00", "14-Mar-26 08:00", "2024/05/01", "2024-122", "2024-000 08:00", "2024-367 08:00", "2024-12 08:00", "24-122 08:00", "m", "\u{e4}", "1-1-1-1 08:00",
         ];
         for text in refused {
             assert_eq!(date(text), None, "{text}");
         }
-        let days =
-            [("2024-02-29", true), ("2026-02-29", false), ("1900-02-29", false), ("2026-04-31", false), ("2026-12-31", true)];
+        let days = [
+            ("2024-02-29", true),
+            ("2026-02-29", false),
+            ("1900-02-29", false),
+            ("2026-04-31", false),
+            ("2026-12-31", true),
+            ("2024-366", true),
+            ("2026-366", false),
+            ("2026-365", true),
+        ];
         for (day, exists) in days {
             assert_eq!(date(&format!("{day}T00:00:00")).unwrap().exists, exists, "{day}");
         }
@@ -243,7 +270,14 @@ mod tests {
         ] {
             assert_eq!(time_of_day(text), seconds, "{text}");
         }
-        assert!(is_day("14-Mar-2026") && is_day("2026-03-14") && is_day("14.3.2026") && is_day("14/3/2026") && !is_day("3.5"));
+        assert!(
+            is_day("14-Mar-2026")
+                && is_day("2026-03-14")
+                && is_day("14.3.2026")
+                && is_day("14/3/2026")
+                && is_day("2026-073")
+                && !is_day("3.5")
+        );
         let of = |text: &str| [First::Day, First::Month].map(|first| slashed(text, first).map(|date| date.seconds / 86_400.0));
         for (text, days) in [
             ("02/01/1970 00:00:00", [Some(1.0), Some(31.0)]),

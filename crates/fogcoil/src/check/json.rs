@@ -6,7 +6,7 @@ use recording::check::{Finding, Repair};
 use serde_json::{Value, json};
 
 use super::text::severity;
-use super::{Analysis, GyroNoise};
+use super::{Analysis, GyroNoise, RateLine};
 use crate::input::Lines;
 
 /// The result; units in the keys, `null` where a number is not known.
@@ -80,6 +80,7 @@ fn noise(noise: &GyroNoise) -> Value {
             "model_deg_per_h": model.allan_deviation(point.tau, noise.interval),
         })
     };
+    let line = |RateLine { line, of }: &RateLine| json!({"period_s": line.period, "amplitude_deg_per_h": line.amplitude(), "of_temperature": of});
     json!({
         "white_deg_per_h": model.white,
         "angle_random_walk_deg_per_sqrt_h": noise.angle_random_walk(),
@@ -89,13 +90,14 @@ fn noise(noise: &GyroNoise) -> Value {
         "rate_random_walk_deg_per_h_per_sqrt_h": present(model.walk, model.walk * S_PER_H.sqrt()),
         "quantisation_arcsec": present(model.quantisation, model.quantisation),
         "relative_errors": {
-            "white": errors.white,
+            "white": noise.white_error(),
             "drift": errors.drift,
             "drift_time": errors.drift_time,
             "rate_random_walk": errors.walk,
             "quantisation": errors.quantisation,
         },
         "taken_off": {"temperature": noise.driver, "lags_s": noise.lags},
+        "lines": noise.lines.iter().map(line).collect::<Vec<_>>(),
         "rows": noise.estimate.rows,
         "rows_left_out": noise.left_out,
         "log_likelihood": noise.estimate.log_likelihood,

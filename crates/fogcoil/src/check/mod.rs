@@ -4,9 +4,11 @@
 //! lag behind the chamber's temperature have been taken off, so that thermal bias does not pass for noise. What of the bias is no
 //! linear lag remains: the slow terms are then upper bounds.
 
+mod certainty;
 mod json;
 mod jumped;
 mod lags;
+mod lined;
 mod order;
 mod text;
 
@@ -18,15 +20,18 @@ use recording::check::white_noise_beyond_cubics;
 use recording::condition::bridged;
 use recording::lag::lagging;
 use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Series, Term, Whitener, identify, residual};
+use recording::smooth::smoothed;
 
 use crate::contradictions::contradictions;
 use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
 use crate::prepare::{stands_still, starts_off_rest};
 use jumped::jumped;
 use lags::lags;
+use lined::{lined, take_off};
 use order::spool_first;
 
 pub use json::json;
+pub use lined::RateLine;
 pub use text::{several, text, text_without_notes, unreadable};
 
 /// A recording and its noise.
@@ -51,14 +56,16 @@ pub struct GyroNoise {
     pub is_bound: bool,
     /// Time constants of the lags \[s\].
     pub lags: Vec<f64>,
+    /// Lines that were taken off.
+    pub lines: Vec<RateLine>,
     /// Rows left out because the model does not expect them: fast transients.
     pub left_out: usize,
     /// Allan deviation of what is left.
     pub allan: Vec<AllanPoint>,
     /// Interval of the rows \[s\].
     pub interval: f64,
-    /// White noise of a sample from fourth differences of neighbours in the rate itself \[deg/h\], and the number of rows: what is taken off brings the noise of
-    /// the thermometer with it.
+    /// White noise of a sample from fourth differences of neighbours in the rate itself, less its lines \[deg/h\], and the number of rows: lags of a
+    /// temperature bring the noise of the thermometer with them.
     pub neighbours: Option<(f64, usize)>,
 }
 
@@ -91,6 +98,8 @@ const UNEXPECTED: f64 = 4.0;
 const QUANTISED: f64 = -0.7;
 /// Most identifications, each without what the one before did not expect.
 const MOST_PASSES: usize = 4;
+/// Most rows of a temperature that is freed of its noise: in more, of which the fit takes means, less of it is left.
+const MOST_SMOOTHED: usize = 20_000;
 /// Factor by which guides and marks may lie below the least Allan deviation in a picture.
 const BELOW: f64 = 30.0;
 
@@ -121,7 +130,8 @@ impl<'a> Analysis<'a> {
         let noise = if usable { gyro_noise(case) } else { None };
         let seen = usable.then(|| [spool_first(case), jumped(case), starts_off_rest(case)]).into_iter().flatten().flatten();
         let contradicted = if usable { contradictions(case) } else { Vec::new() };
-        let notes = case.notes.iter().cloned().chain(seen).chain(contradicted).collect();
+        let lined = noise.as_ref().and_then(|noise| lined(&noise.lines));
+        let notes = case.notes.iter().cloned().chain(seen).chain(contradicted).chain(lined).collect();
         Self { case, notes, noise }
     }
 }
@@ -130,17 +140,15 @@ fn gyro_noise(case: &RecordCase) -> Option<GyroNoise> {
     let kept = case.kept();
     let (time, instants) = (kept.time(), case.report.instants.as_ref()?);
     let rate = case.number(RATE)?;
-    let (values, mask) = (&kept.channels()[rate].values, &case.report.masks[rate]);
+    let (mut values, mask) = (kept.channels()[rate].values.clone(), &case.report.masks[rate]);
     let driver = [CHAMBER, SPOOL].into_iter().find(|name| {
         case.number(name).is_some_and(|number| {
             let summary = &case.report.channels[number];
             summary.used > time.len() / 2 && summary.largest > summary.least
         })
     });
-    let temperature = driver.and_then(|name| {
-        // masked values on the line between their neighbours
-        bridged(time, &case.report.used(&case.recording).channel(name)?.values)
-    });
+    let readings = driver.and_then(|name| case.report.used(&case.recording).channel(name).map(|channel| channel.values.clone()));
+    let temperature = readings.as_deref().and_then(|readings| free_of_noise(time, readings));
     let is_bound = temperature.as_deref().is_some_and(|values| !stands_still(values, instants.interval));
     let lags = if driver.is_some() { lags(instants.interval, instants.span, time.len()) } else { Vec::new() };
     let mut columns = vec![vec![1.0; time.len()]];
@@ -151,11 +159,17 @@ fn gyro_noise(case: &RecordCase) -> Option<GyroNoise> {
     let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
     let mut bounds = Bounds::new(case.averaging, time);
     let mut used = mask.clone();
-    let mut passes = 0;
+    let (mut passes, mut lines) = (0, Vec::new());
     let (estimate, allan, neighbours) = loop {
-        let series = Series { time, values, mask: &used, columns: &columns };
+        let series = Series { time, values: &values, mask: &used, columns: &columns };
         let estimate = identify(&series, &bounds).ok()?;
         let rest = residual(&series, &estimate.model).ok()?;
+        let more = lined::lines(&estimate.model, time, &rest, case.report.channels[rate].step, lines.len());
+        if !more.is_empty() {
+            more.iter().for_each(|line| take_off(line, time, &mut values));
+            lines.extend(more);
+            continue;
+        }
         let still: Vec<bool> = rest.iter().map(|value| value.is_finite()).collect();
         let allan = allan(time, &rest, &still).ok()?;
         passes += 1;
@@ -167,12 +181,19 @@ fn gyro_noise(case: &RecordCase) -> Option<GyroNoise> {
         let more = leave_out(&estimate, time, &rest, &mut used) || quantised;
         if !more || passes == MOST_PASSES {
             let rows = still.iter().filter(|there| **there).count();
-            let neighbours = white_noise_beyond_cubics(time, values, &still).filter(|sd| *sd > 0.0).map(|sd| (sd, rows));
+            let neighbours = white_noise_beyond_cubics(time, &values, &still).filter(|sd| *sd > 0.0).map(|sd| (sd, rows));
             break (estimate, allan, neighbours);
         }
     };
     let left_out = mask.iter().zip(&used).filter(|(there, used)| **there && !**used).count();
-    Some(GyroNoise { estimate, driver, is_bound, lags, left_out, allan, interval: instants.interval, neighbours })
+    let lines = lined::of(lines, time, driver.zip(readings.as_deref()));
+    Some(GyroNoise { estimate, driver, is_bound, lags, lines, left_out, allan, interval: instants.interval, neighbours })
+}
+
+/// A temperature without its thermometer's noise, which would pass for the rate's through the lags; masked values are on the course between their neighbours.
+fn free_of_noise(time: &[f64], readings: &[f64]) -> Option<Vec<f64>> {
+    let smooth = (time.len() <= MOST_SMOOTHED).then(|| smoothed(time, readings, None).ok()).flatten();
+    smooth.map_or_else(|| bridged(time, readings), |smooth| Some(smooth.values))
 }
 
 /// Masks the rows that the model does not expect, where the temperature turns too fast for its lags; whether there were any.

@@ -129,18 +129,18 @@ fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
         noise.taken_off()
     );
     let model = &estimate.model;
-    let StandardErrors { white, drift, drift_time, walk, quantisation } = estimate.standard_errors;
-    let row = |name: &str, value: f64, error: Option<f64>, unit: &str| {
-        let error = error.map_or("not known".to_owned(), |error| format!("± {:.0} %", 100.0 * error));
-        vec![name.to_owned(), significant(value, 3), error, unit.to_owned()]
-    };
+    let StandardErrors { drift, drift_time, walk, quantisation, .. } = estimate.standard_errors;
+    let told =
+        |name: &str, value: f64, error: String, unit: &str| vec![name.to_owned(), significant(value, 3), error, unit.to_owned()];
+    let row = |name: &str, value: f64, error: Option<f64>, unit: &str| told(name, value, percent(error), unit);
+    let white = || noise.white_ends(1.0).map_or_else(|| percent(None), sides);
     let mut rows = vec![["", "value", "± 1 sd", "unit"].map(str::to_owned).to_vec()];
     match noise.white() {
-        Some(sd) => rows.push(row("white noise of a sample", sd, white, "deg/h")),
+        Some(sd) => rows.push(told("white noise of a sample", sd, white(), "deg/h")),
         None => rows.push(vec!["white noise of a sample".into(), "-".into(), "hidden by slower noise".into(), "deg/h".into()]),
     }
     if let Some(walk) = noise.angle_random_walk() {
-        rows.push(row("angle random walk", walk, white, "deg/sqrt(h)"));
+        rows.push(told("angle random walk", walk, white(), "deg/sqrt(h)"));
     }
     if let Some(bench) = analysis.case.meta.as_ref().and_then(|meta| meta.nominal_arw_deg_per_sqrt_h) {
         rows.push(vec!["  the meta file's".into(), significant(bench, 3), String::new(), "deg/sqrt(h)".into()]);
@@ -160,7 +160,11 @@ fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
         Some((tau, floor)) => {
             let error = estimate.relative_error(|model| model.allan_deviation(tau, noise.interval));
             let at = format!("deg/h, at {} s", Seconds(tau.round()));
-            rows.push(row("bias instability, the Allan floor", floor, error, &at));
+            let mut line = row("bias instability, the Allan floor", floor, error, &at);
+            if noise.is_bound {
+                line[1] = format!("at most {}", line[1]);
+            }
+            rows.push(line);
         }
         None => rows.push(vec![
             "bias instability, the Allan floor".into(),
@@ -173,6 +177,9 @@ fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
     out.push_str(&table(&rows));
     if not_known {
         let _ = writeln!(out, "(interval not known: {NO_MAXIMUM})");
+    }
+    if noise.is_contradicted() {
+        out.push_str("(white noise: the fit is contradicted by its own Allan deviation, or by differences of neighbours; the ends hold these, too)\n");
     }
     if noise.left_out > 0 {
         let _ = writeln!(out, "{} rows that this model does not expect (fast transients) were left out", noise.left_out);
@@ -188,6 +195,17 @@ fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
         rows.push(vec![significant(point.tau, 4), deviation, low, high, format!("{:.2}", point.slope), modelled]);
     }
     out.push_str(&table(&rows));
+}
+
+/// A relative error.
+fn percent(error: Option<f64>) -> String {
+    error.map_or("not known".to_owned(), |error| format!("± {:.0} %", 100.0 * error))
+}
+
+/// Ends of an interval over its middle.
+fn sides([low, high]: [f64; 2]) -> String {
+    let [below, above] = [1.0 - low, high - 1.0].map(|error| format!("{:.0}", 100.0 * error));
+    if below == above { format!("± {above} %") } else { format!("-{below} % to +{above} %") }
 }
 
 /// A line for each recording; a reason for which several cannot be used stands below them, once.

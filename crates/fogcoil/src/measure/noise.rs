@@ -23,11 +23,14 @@ pub(super) fn of(noise: Option<&GyroNoise>) -> Scale {
     Scale { arw: arw(noise), floor: floor(noise, found), floor_time: found.map(|(tau, _)| tau) }
 }
 
+/// A number whose interval is not known.
+fn not_known(value: f64) -> Untold {
+    Untold { why: format!("interval not known: {NO_MAXIMUM}"), value: Some(value) }
+}
+
 /// A positive number and the relative error of its logarithm, if that is known.
 fn told(value: f64, error: Option<f64>) -> Told {
-    let Some(error) = error else {
-        return Err(Untold { why: format!("interval not known: {NO_MAXIMUM}"), value: Some(value) });
-    };
+    let error = error.ok_or_else(|| not_known(value))?;
     let factor = (normal_quantile(0.95) * error).exp();
     Ok(Figure { value, ci90: [value / factor, value * factor] })
 }
@@ -36,20 +39,8 @@ fn arw(noise: &GyroNoise) -> Told {
     let mean = noise.estimate.model.angle_random_walk();
     mean.ok_or_else(|| "a rate is no mean over an interval".to_owned())?;
     let walk = noise.angle_random_walk().ok_or_else(|| NO_WHITE.to_owned())?;
-    let told = told(walk, noise.estimate.standard_errors.white)?;
-    Ok(Figure { ci90: widened(told.ci90, walk, noise.estimate.model.white, noise.neighbours), ..told })
-}
-
-/// Relative standard deviation of a standard deviation from fourth differences of so many rows, times their root: √(½ Σ ρ²) with ρ the correlations of the
-/// differences of white noise, −56/70, 28/70, −8/70, 1/70; of second differences it is 0.99.
-const BY_NEIGHBOURS: f64 = 1.15;
-
-/// An interval that holds the white noise by fourth differences of neighbours, too: where temperature acts on the rate faster than its lags explain, or a
-/// noisy thermometer tells it, the fitted model counts that as noise, and the two part.
-fn widened([low, high]: [f64; 2], walk: f64, white: f64, neighbours: Option<(f64, usize)>) -> [f64; 2] {
-    let Some((sd, rows)) = neighbours.filter(|_| white > 0.0) else { return [low, high] };
-    let (other, share) = (walk * sd / white, normal_quantile(0.95) * BY_NEIGHBOURS / (rows as f64).sqrt());
-    if (low..=high).contains(&other) { [low, high] } else { [low.min(other / (1.0 + share)), high.max(other * (1.0 + share))] }
+    let ends = noise.white_ends(normal_quantile(0.95)).ok_or_else(|| not_known(walk))?;
+    Ok(Figure { value: walk, ci90: ends.map(|end| walk * end) })
 }
 
 fn floor(noise: &GyroNoise, found: Option<(f64, f64)>) -> Told {
@@ -64,21 +55,4 @@ fn floor(noise: &GyroNoise, found: Option<(f64, f64)>) -> Told {
     };
     // the floor is flat: at its averaging time the deviation changes as the floor does
     told(deviation, noise.estimate.relative_error(|model| model.allan_deviation(tau, noise.interval)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_interval_holds_what_neighbours_tell_with_its_own_error() {
-        let of = |sd: f64| widened([0.9, 1.1], 1.0, 2.0, Some((sd, 10_000)));
-        assert_eq!(of(2.1), [0.9, 1.1]);
-        assert_eq!(widened([0.9, 1.1], 1.0, 2.0, None), [0.9, 1.1]);
-        let error = 1.0 + 1.645 * 0.0115;
-        let [low, high] = of(1.6);
-        assert!((low - 0.8 / error).abs() < 1e-4 && high == 1.1, "{low} {high}");
-        let [low, high] = of(2.6);
-        assert!(low == 0.9 && (high - 1.3 * error).abs() < 1e-4, "{low} {high}");
-    }
 }

@@ -119,7 +119,7 @@ fn recordings_without_information() {
     refuse(
         rows(300, |i| format!("{},20,20,{}", 30 * (i % 150), i * i % 7 + 10 * (i / 150))),
         &[],
-        &["r.csv:152: cannot be used: time goes back by 4470 s", "(and 149 more)", "sort the rows"],
+        &["r.csv:152: cannot be used: time goes back by 4470 s", "from 0 to 4470 s (150 rows)", "sort the rows"],
     );
     refuse(rows(300, |i| format!("30,20,20,{}", i * i % 7)), &[], &["one instant has different values"]);
     // the report of what cannot be used is there all the same

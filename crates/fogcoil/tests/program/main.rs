@@ -33,4 +33,5 @@ mod simulate;
 mod spool;
 mod sweep;
 mod terminal;
+mod white_noise;
 mod write_map;

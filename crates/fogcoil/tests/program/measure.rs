@@ -228,6 +228,11 @@ fn a_floor_in_a_ramp_is_an_upper_bound() {
     assert!(ramp["bias_instability_is_bound"] == true && ramp["bias_instability"]["value"].is_f64(), "{ramp}");
     let line = said.lines().find(|line| line.starts_with("bias instability")).unwrap();
     assert!(line.contains("at most 0.0") && line.contains("upper bound: the temperature changed"), "{said}");
+    // the record's clock need not begin at 0
+    assert!(said.contains(" s on the record's clock, and relative to the bias in the first row."), "{said}");
+    let checked = ["still.csv", "ramp.csv"].map(|name| stdout(&folder.run(&["check", name])));
+    let floor = |text: &String| text.lines().any(|line| line.starts_with("bias instability") && line.contains("at most 0.0"));
+    assert_eq!(checked.each_ref().map(floor), [false, true], "{checked:?}");
     let table = stdout(&folder.run(&["measure", "still.csv", "ramp.csv"]));
     let bounds =
         ["still.csv", "ramp.csv"].map(|name| table.lines().any(|line| line.starts_with(name) && line.contains("< 0.00")));

@@ -227,6 +227,23 @@ fn the_time_is_known_by_its_letter_and_its_unit() {
     }
 }
 
+/// The day of the year is read; a column of instants in another form is listed all the same.
+#[test]
+fn days_of_the_year_are_read_and_unread_instants_are_listed() {
+    let of = |day: &dyn Fn(String) -> String| {
+        let folder = Folder::new();
+        let row = |n: usize, [_, c, s, r]: [f64; 4]| format!("{},{c:.4},{s:.5},{r:.6}", day(date(n)));
+        folder.write("r.csv", format!("Stamp,chamber [degC],spool [degC],rate [deg/h]\r\n{}", lines(row)));
+        let output = folder.run(&["check", "r.csv", "--write-map"]);
+        (output.status.code(), stderr(&output), std::fs::read_to_string(folder.path("r.map.ron")).unwrap())
+    };
+    let (code, message, map) = of(&|date| date.replace("03-02", "061"));
+    assert!(code == Some(0) && map.contains("    time: (column: \"Stamp\"),"), "{message}{map}");
+    let (code, message, map) = of(&|date| date.replace("-03-02 ", "W101/"));
+    assert_eq!(code, Some(2), "{message}");
+    assert!(map.contains("// time: (column: \"Stamp\"),") && map.contains("in a form that is not read: write them as "), "{map}");
+}
+
 /// Where no name says which column is the time, or the rate, the map lists what may be it.
 #[test]
 fn columns_that_are_not_known_are_left_to_choose() {

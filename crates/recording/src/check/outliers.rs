@@ -24,7 +24,7 @@ const FAR_END: [f64; 2] = [11.0, 10.0];
 const TOGETHER: usize = 3;
 
 /// Hampel's test against three neighbours on each side, less the line of their median slope (Theil and Sen): a ramp hides no outlier, and a step, or a
-/// bend, is none. Up to three rows may be off together.
+/// bend, is none. Up to three rows may be off together. What goes on with the line of one side alone is a corner.
 ///
 /// The first and the last row are judged by the five beside them, and have to be farther off; those next to them are not judged.
 pub(super) fn judge(context: &Context, mask: &mut [bool]) -> Vec<Finding> {
@@ -108,9 +108,14 @@ fn lone(context: &Context, used: &[usize], n: usize, together: usize, noise: f64
     let distances = || used[n..end].iter().map(|row| level(*row) - middle);
     let distance = distances().fold(f64::INFINITY, |least, d| if d.abs() < f64::abs(least) { d } else { least });
     let same = distances().all(|d| d.signum() == distance.signum());
-    let alone = beside(&level).into_iter().all(|side| side * distance.signum() > LONE[0] * distance.abs())
-        && range < LONE[1] * distance.abs();
-    (same && distance.abs() > FAR * noise && alone).then_some(distance.abs())
+    let far = |side: f64| side * distance.signum() > LONE[0] * distance.abs();
+    let alone = beside(&level).into_iter().all(far) && range < LONE[1] * distance.abs();
+    let off = |side: &[usize], row: usize| Some(values[row] - extrapolated(context, side, row)?);
+    let is_corner = || {
+        let (before, after) = neighbours.split_at(balanced);
+        [off(before, row), off(after, last)].into_iter().any(|off| !off.is_some_and(far))
+    };
+    (same && distance.abs() > FAR * noise && alone && !is_corner()).then_some(distance.abs())
 }
 
 /// The first of some rows from an end inwards with its distance from the line of the others, if it is an outlier: a row that was cut, or a start.
@@ -121,11 +126,17 @@ fn end(context: &Context, rows: &[usize], noise: f64) -> Option<(usize, f64)> {
     if rows.len() < ENDS || !rows.windows(2).all(near) {
         return None;
     }
-    let slope = median_slope(context, others)?;
-    let middle = median(others.iter().map(|m| values[*m] - slope * (time[*m] - time[row])).collect())?;
+    let middle = extrapolated(context, others, row)?;
     let change = others.windows(2).map(|m| (values[m[0]] - values[m[1]]).abs()).fold(0.0, f64::max);
     let distance = (values[row] - middle).abs();
     (distance > FAR_END[0] * noise && distance > FAR_END[1] * change).then_some((row, distance))
+}
+
+/// Value in a row on the line of some rows: that of their median slope through their median.
+fn extrapolated(context: &Context, rows: &[usize], row: usize) -> Option<f64> {
+    let Context { time, values, .. } = context;
+    let slope = median_slope(context, rows)?;
+    median(rows.iter().map(|m| values[*m] - slope * (time[*m] - time[row])).collect())
 }
 
 /// Median of the slopes between any two of some rows.

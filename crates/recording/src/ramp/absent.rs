@@ -43,6 +43,16 @@ pub enum Absent {
         "no temperature is held after heating and after cooling too; record rests at one temperature, reached from either side"
     )]
     NoRest,
+    /// A temperature is held after heating and after cooling, and left before slow responses have settled.
+    #[error(
+        "a temperature is held after heating and after cooling too, but left before a response of {} s has settled, the slowest that is sought; hold it for {} s or longer each time", Seconds(lag.round()), Seconds(needed.ceil())
+    )]
+    ShortRest {
+        /// Longest time constant that is sought \[s\].
+        lag: f64,
+        /// Time after which its rate counts as rest \[s\].
+        needed: f64,
+    },
     /// The noise cannot be identified.
     #[error("{0}")]
     Noise(#[from] Error),

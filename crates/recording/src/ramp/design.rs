@@ -116,10 +116,15 @@ impl Design {
     pub(super) fn slowest_rate(&self) -> &[f64] {
         &self.columns[self.common().start]
     }
+
+    /// The same as the fastest lag has it.
+    pub(super) fn fastest_rate(&self) -> &[f64] {
+        &self.columns[self.common().end - 1]
+    }
 }
 
 /// A temperature \[K\] as −1 at its least to 1 at its largest.
-fn warmth(temperature: &[f64]) -> Vec<f64> {
+pub(super) fn warmth(temperature: &[f64]) -> Vec<f64> {
     let least = temperature.iter().copied().fold(f64::INFINITY, f64::min);
     let largest = temperature.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let half = if largest > least { (largest - least) / 2.0 } else { 1.0 };

@@ -2,7 +2,7 @@
 
 use super::absent::Absent;
 use super::branches::Course;
-use super::design::Design;
+use super::design::{Design, warmth};
 use super::estimate::Estimate;
 use super::model::{Model, Observed};
 
@@ -25,19 +25,33 @@ pub(super) fn beside(design: &Design, course: &Course) -> Design {
     design.with(course.side.clone())
 }
 
-/// Whether rests lie at one temperature after either direction.
-pub(super) fn rests(design: &Design, course: &Course, observed: Observed) -> bool {
-    let rates = design.slowest_rate();
-    let largest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
-    let rests = |side: f64| -> Vec<f64> {
-        let rest =
-            |row: &usize| observed.mask[*row] && (course.side[*row] - side).abs() < CAME && rates[*row].abs() < RESTING * largest;
-        let mut found: Vec<f64> = (0..observed.time.len()).filter(rest).map(|row| design.warmth[row]).collect();
-        found.sort_by(f64::total_cmp);
-        found
+/// Whether rests lie at one temperature after either direction, `drive` being what moves the channel and `interval` that of the rows \[s\].
+///
+/// # Errors
+/// [`Absent::ShortRest`] where a temperature is held so, and too short; else [`Absent::NoRest`].
+pub(super) fn rests(design: &Design, course: &Course, observed: Observed, drive: &[f64], interval: f64) -> Result<(), Absent> {
+    let at_rest = |rates: &[f64], warmth: &[f64]| {
+        let largest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        let rests = |side: f64| -> Vec<f64> {
+            let rest = |row: &usize| {
+                observed.mask[*row] && (course.side[*row] - side).abs() < CAME && rates[*row].abs() < RESTING * largest
+            };
+            let mut found: Vec<f64> = (0..observed.time.len()).filter(rest).map(|row| warmth[row]).collect();
+            found.sort_by(f64::total_cmp);
+            found
+        };
+        let [below, above] = [rests(0.5), rests(-0.5)];
+        shared(&below, &above) >= FEWEST && shared(&above, &below) >= FEWEST
     };
-    let [below, above] = [rests(0.5), rests(-0.5)];
-    shared(&below, &above) >= FEWEST && shared(&above, &below) >= FEWEST
+    if at_rest(design.slowest_rate(), &design.warmth) {
+        Ok(())
+    } else if at_rest(design.fastest_rate(), &warmth(drive)) {
+        let lag = design.lags[0];
+        // the rate falls as e^(−t/lag)
+        Err(Absent::ShortRest { lag, needed: -RESTING.ln() * lag + FEWEST as f64 * interval })
+    } else {
+        Err(Absent::NoRest)
+    }
 }
 
 /// Number of values that have one of the others beside them; both lists are sorted.

@@ -135,9 +135,7 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     // the change is that of the sensitivity, and no error of a difference, or of a bias at rest
     let settled = |found: Estimate| if matches!(slow, Slow::By(0.0)) { Ok(found) } else { not_settled() };
     let hysteresis = || {
-        if !models.iter().all(|model| hysteresis::rests(&model.design, &course, observed)) {
-            return Err(Absent::NoRest);
-        }
+        models.iter().try_for_each(|model| hysteresis::rests(&model.design, &course, observed, input.drive, input.interval))?;
         // a response that hardly begins in a ramp is still seen at the rest behind it
         let watch = watch.at_rest();
         let sets = sets_of(watch.settling)?;

@@ -1,0 +1,214 @@
+//! Lines of a series: sinusoids that go on through it, as hum and vibration leave them.
+//!
+//! A line stands in one place of the spectrum, noise in all: of Hann's window, the power at a frequency is held against the mean of the frequencies
+//! around it (Fisher's test of 1929, with the noise of a neighbourhood in place of that of the whole).
+
+use nalgebra::{Complex, Matrix3, Vector3};
+use std::f64::consts::TAU;
+
+use crate::median_interval;
+
+/// Chance of a line in a series of noise.
+const CHANCE: f64 = 1e-6;
+/// Chance that noise stands out at one frequency that is given.
+const CHANCE_AT_ONE: f64 = 1e-3;
+/// Cycles in a series from which on they are a line: fewer are a course.
+const FEWEST_CYCLES: f64 = 20.0;
+/// Frequencies, in steps of 1/length, on either side that tell the noise, beyond those that Hann's window fills with a line.
+const AROUND: f64 = 64.0;
+const OWN: f64 = 4.0;
+/// Neighbours in Hann's window that tell as much as one without it: 1 + 2 (2/3)² + 2 (1/6)².
+const ALIKE: f64 = 1.944;
+/// Most slots of an even lattice for each row: a series of more holes is not searched.
+const MOST_SLOTS: usize = 4;
+/// Fewest rows.
+const FEWEST_ROWS: usize = 256;
+
+/// A sinusoid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line {
+    /// Its period in the rows \[s\]; a faster one than two rows looks like a slower one.
+    pub period: f64,
+    /// Amount of the cosine and of the sine from the origin of time \[u\].
+    parts: [f64; 2],
+    /// Origin of time \[s\].
+    start: f64,
+}
+
+impl Line {
+    /// Its amplitude \[u\].
+    pub fn amplitude(&self) -> f64 {
+        self.parts[0].hypot(self.parts[1])
+    }
+
+    /// Its value at an instant \[s\].
+    pub fn at(&self, instant: f64) -> f64 {
+        let (sine, cosine) = phase(instant - self.start, 1.0 / self.period).sin_cos();
+        self.parts[0] * cosine + self.parts[1] * sine
+    }
+}
+
+/// The line of a series that noise is least likely to be; `None` where noise may be it. NaN is a value that is not used.
+///
+/// `white` is the series whitened, in which the line is sought; `values` is the series itself, which tells its amplitude.
+pub fn strongest(time: &[f64], values: &[f64], white: &[f64]) -> Option<Line> {
+    let spectrum = Spectrum::new(time, white)?;
+    let (bin, chance) = spectrum.bins().map(|bin| (bin, spectrum.chance(bin))).min_by(|a, b| a.1.total_cmp(&b.1))?;
+    if chance * spectrum.bins().len() as f64 / spectrum.filled > CHANCE {
+        return None;
+    }
+    fitted(time, values, finer(time, white, bin as f64 * spectrum.step, spectrum.step))
+}
+
+/// Whether a series has a line of a period \[s\], or of a small multiple of it. NaN is a value that is not used.
+pub fn has_line(time: &[f64], values: &[f64], period: f64) -> bool {
+    // a course leaks into all of a spectrum, its differences hardly do
+    let differences: Vec<f64> = std::iter::once(f64::NAN).chain(values.windows(2).map(|pair| pair[1] - pair[0])).collect();
+    let Some(spectrum) = Spectrum::new(time, &differences) else { return false };
+    let bin = |multiple: f64| (1.0 / (multiple * period * spectrum.step)).round() as usize;
+    [1.0, 2.0, 3.0].map(bin).into_iter().any(|bin| spectrum.bins().contains(&bin) && spectrum.chance(bin) < CHANCE_AT_ONE)
+}
+
+/// Phase of a frequency \[Hz\] after a time \[s\]; whole turns are taken off, so that long records lose no digits.
+fn phase(after: f64, frequency: f64) -> f64 {
+    TAU * (after * frequency).fract()
+}
+
+/// Weight of Hann's window at a share of the length.
+fn hann(share: f64) -> f64 {
+    0.5 - 0.5 * (TAU * share).cos()
+}
+
+/// Rows that are used: instant since the first, value and weight of the window.
+fn weighed<'a>(time: &'a [f64], values: &'a [f64]) -> impl Iterator<Item = (f64, f64, f64)> + 'a {
+    let (start, length) = (time[0], time[time.len() - 1] - time[0]);
+    let used = time.iter().zip(values).filter(|(_, value)| value.is_finite());
+    used.map(move |(t, value)| (t - start, *value, hann((t - start) / length)))
+}
+
+/// Power of a series at frequencies up to half of that of its rows.
+struct Spectrum {
+    /// Sums of the powers below each bin.
+    sums: Vec<f64>,
+    /// Distance of the bins \[Hz\].
+    step: f64,
+    /// Bins for each frequency of 1/length.
+    filled: f64,
+}
+
+impl Spectrum {
+    fn new(time: &[f64], values: &[f64]) -> Option<Self> {
+        if time.len() < FEWEST_ROWS {
+            return None;
+        }
+        let usual = median_interval(time)?;
+        let slots: f64 = time.windows(2).map(|pair| ((pair[1] - pair[0]) / usual).round().max(1.0)).sum();
+        // the mean interval of the lattice: the median one may be off by the clock's last digit
+        let interval = (time[time.len() - 1] - time[0]) / slots;
+        if slots > (MOST_SLOTS * time.len()) as f64 {
+            return None;
+        }
+        let size = (slots as usize + 1).next_power_of_two();
+        let (sum, count) =
+            weighed(time, values).fold((0.0, 0.0), |(sum, n), (_, value, weight)| (sum + weight * value, n + weight));
+        let mut series = vec![Complex::new(0.0, 0.0); size];
+        for (after, value, weight) in weighed(time, values) {
+            series[(after / interval).round() as usize].re += weight * (value - sum / count);
+        }
+        transform(&mut series);
+        let powers = series[..size / 2].iter().map(Complex::norm_sqr);
+        let sums = std::iter::once(0.0).chain(powers.scan(0.0, |sum, power| {
+            *sum += power;
+            Some(*sum)
+        }));
+        Some(Self { sums: sums.collect(), step: 1.0 / (size as f64 * interval), filled: size as f64 / slots })
+    }
+
+    /// The bins that may hold a line.
+    fn bins(&self) -> std::ops::Range<usize> {
+        (FEWEST_CYCLES * self.filled).ceil() as usize..self.sums.len().saturating_sub(1 + (OWN * self.filled) as usize)
+    }
+
+    /// Chance that noise alone has the power of a bin.
+    fn chance(&self, bin: usize) -> f64 {
+        let [own, around] = [OWN, OWN + AROUND].map(|reach| (reach * self.filled) as usize);
+        let last = self.sums.len() - 1;
+        let sides =
+            [bin.saturating_sub(around)..bin.saturating_sub(own), (bin + own + 1).min(last)..(bin + around + 1).min(last)];
+        let (power, count) = sides.into_iter().fold((0.0, 0.0), |(power, count), side| {
+            (power + self.sums[side.end] - self.sums[side.start], count + side.len() as f64)
+        });
+        let told = count / self.filled / ALIKE;
+        // an exponential variable over a mean of so many others
+        (1.0 + (self.sums[bin + 1] - self.sums[bin]) * count / power / told).powf(-told)
+    }
+}
+
+/// Discrete Fourier transform of a power of two of values, in their place (Cooley and Tukey 1965).
+fn transform(series: &mut [Complex<f64>]) {
+    let size = series.len();
+    for n in 1..size {
+        let other = n.reverse_bits() >> (size.leading_zeros() + 1);
+        if n < other {
+            series.swap(n, other);
+        }
+    }
+    let mut half = 1;
+    while half < size {
+        let turns: Vec<Complex<f64>> = (0..half).map(|n| Complex::cis(-TAU * n as f64 / (2 * half) as f64)).collect();
+        for pair in series.chunks_exact_mut(2 * half) {
+            let (first, second) = pair.split_at_mut(half);
+            for ((a, b), turn) in first.iter_mut().zip(second).zip(&turns) {
+                (*a, *b) = (*a + *b * turn, *a - *b * turn);
+            }
+        }
+        half *= 2;
+    }
+}
+
+/// The frequency near one \[Hz\] at which the power is largest: the tip of a parabola through three logarithms of it, ever closer.
+fn finer(time: &[f64], values: &[f64], mut frequency: f64, step: f64) -> f64 {
+    let power = |frequency: f64| {
+        let sum =
+            weighed(time, values).map(|(after, value, weight)| Complex::from_polar(weight * value, phase(after, frequency)));
+        sum.sum::<Complex<f64>>().norm_sqr().ln()
+    };
+    for apart in [0.5, 0.1, 0.02].map(|share| share * step) {
+        let [low, middle, high] = [-apart, 0.0, apart].map(|by| power(frequency + by));
+        let by = 0.5 * (low - high) / (low - 2.0 * middle + high) * apart;
+        if by.is_finite() {
+            frequency += by.clamp(-step, step);
+        }
+    }
+    frequency
+}
+
+/// Offset, cosine and sine of a frequency \[Hz\] in a series by least squares in Hann's window.
+fn fitted(time: &[f64], values: &[f64], frequency: f64) -> Option<Line> {
+    let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+    for (after, value, weight) in weighed(time, values) {
+        let (sine, cosine) = phase(after, frequency).sin_cos();
+        let row = Vector3::new(1.0, cosine, sine);
+        normal += weight * row * row.transpose();
+        right += weight * value * row;
+    }
+    let amounts = normal.try_inverse()? * right;
+    Some(Line { period: 1.0 / frequency, parts: [amounts[1], amounts[2]], start: time[0] })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_the_transform_is_the_sum_that_defines_it() {
+        let series: Vec<Complex<f64>> = (0..16).map(|n| Complex::new(f64::from(n * n % 7), f64::from(n % 3))).collect();
+        let mut found = series.clone();
+        transform(&mut found);
+        for (k, found) in found.iter().enumerate() {
+            let turned = |(n, value): (usize, &Complex<f64>)| value * Complex::cis(-TAU * (k * n) as f64 / 16.0);
+            let sum: Complex<f64> = series.iter().enumerate().map(turned).sum();
+            assert!((found - sum).norm() < 1e-12, "{k}: {found} {sum}");
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! What is a lone value, and what a course.
+
+use crate::check::{ROWS, sound};
+
+/// A response of a few rows at the onset of a ramp, of any size and wherever between rows it begins; beside it a bad value that a logger repeats.
+#[test]
+fn the_onset_of_a_response_is_no_outlier() {
+    for seed in 0..300 {
+        let mut sample = sound(seed, 0.01);
+        let size = 0.02 * [15.0, 25.0, 40.0, 100.0][seed as usize % 4];
+        let rise = [10.0, 25.0, 45.0][seed as usize % 3];
+        let onset = 6000.0 + 30.0 * (seed % 10) as f64 / 10.0;
+        let response = |t: f64| size * (1.0 - (-(t - onset).max(0.0) / rise).exp()) * (-(t - onset).max(0.0) / 900.0).exp();
+        sample.time.iter().zip(&mut sample.rate).for_each(|(t, rate)| *rate += response(*t));
+        let bad = [[500, 501], [700, 702]];
+        bad.iter().for_each(|[first, last]| (*first..=*last).for_each(|row| sample.rate[row] += 1.0));
+        let report = sample.report();
+        let masked: Vec<usize> = (0..ROWS).filter(|&row| !report.masks[1][row]).collect();
+        assert_eq!(masked, [500, 501, 700, 701, 702], "seed {seed}");
+    }
+}
