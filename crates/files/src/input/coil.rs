@@ -17,11 +17,12 @@ use super::mirror::Mirror;
 use super::opened::open;
 use super::source::{COIL, Source};
 use super::spool_file::spool;
-use super::tolerances::{Unused, tolerances};
+use super::tolerances::{self, Unused};
 use super::warnings::{in_medium, warnings};
 use super::winding_file::winding;
 use super::{InputError, heat};
-use crate::remark::{Note, Remark};
+use crate::note::Note;
+use crate::remark::Remark;
 use crate::units::to_mm;
 use crate::{Error, shown_path};
 
@@ -187,11 +188,12 @@ fn checked(path: &Path, source: Source, unused: Unused) -> Result<CoilCase, Erro
         let problem = "the thermometer lies outside the solids, and a film stands in place of the medium";
         return Err(top.fault("sensor", problem, "move it into the spool or the coil, or remove heat.film_w_per_m2k").into());
     }
-    let tolerances = tolerances(&top, &file.tolerances, &file.correlations, &design, unused)?;
+    let tolerances = tolerances::tolerances(&top, &file.tolerances, &file.correlations, &design, unused)?;
+    let cut = tolerances::cut(&tolerances, &design);
     let name = file.name;
     let provenance = Provenance { material, dehomogenization: row };
     let (file, fingerprints) = (path.to_owned(), cells.fingerprints);
-    let warnings = [cells.notes, warnings(&design, &layout, &winding)].concat();
+    let warnings = [cells.notes, warnings(&design, &layout, &winding), cut].concat();
     Ok(CoilCase { file, name, design, tolerances, winding, provenance, fingerprints, warnings })
 }
 
