@@ -77,10 +77,18 @@ remarks! {
         "`coil.material` and `dehomogenization` name different cells by `FromCell`.",
         "The strain in the fibre is that of another cell than the winding's stiffness and expansion: the sensitivity is no coil's.",
         "Name one cell in both; in a plan vary both under one key, `coil.material and dehomogenization`.";
+    OtherMass "other-mass":
+        "The cell that `FromCell` names gives another density or specific heat than `coil` by more than the tolerance of that number.",
+        "Heat flows through the coil as `coil` says, and its stiffness is the cell's: one of the two is another winding's, or in another unit.",
+        "Take what `fogcoil homogenize` prints of the cell, or give the number a wider tolerance.";
     CutTolerance "cut-tolerance":
         "`tolerances` gives a start or an end of the winding more than a quarter of the distance from the outermost turn's centre to the coil's face there.",
         "That quarter is taken: four standard deviations take no turn's centre out of the coil. Bands and diagnoses count no more.",
         "Nothing if the turns fill the coil: they cannot lie elsewhere. Else check both ends and `coil.height_mm`.";
+    UntoldMaterial "untold-material":
+        "Of a cell's materials some have a density or a specific heat, and others have none.",
+        "The cell has no mean of it: it is left out of the constants.",
+        "Give it to the materials that are named, or to none.";
     BrokenPattern "broken-pattern":
         "The number of layers is no multiple of the pattern's period: 2 of a dipole, 4 of a quadrupole, 8 of an octupole.",
         "The two halves of the fibre are not balanced; the sensitivity may be several times as large.",
