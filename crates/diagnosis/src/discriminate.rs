@@ -109,7 +109,7 @@ pub fn separation(
     let fitter = Fitter::new(&under, records, &observations)?;
     let mut nearest: Option<(f64, Fit)> = None;
     for rival in rivals {
-        let fit = fitter.fit(rival, &noise, None)?;
+        let fit = fitter.fit_to_the_end(rival, &noise)?;
         let squared = 2.0 * fit.value();
         if nearest.as_ref().is_none_or(|(least, _)| squared < *least) {
             nearest = Some((squared, fit));
@@ -148,7 +148,7 @@ pub fn fitted(
     let typical = Noise::typical(model.channels(), observations)?;
     let mut best: Option<Fit> = None;
     for hypothesis in hypotheses {
-        let fit = fitter.fit(hypothesis, &typical, None)?;
+        let fit = fitter.fit_to_the_end(hypothesis, &typical)?;
         best = Some(Fit::better(best, fit));
     }
     let best = best.ok_or_else(|| Error::Data("there is no hypothesis to fit".into()))?;

@@ -50,3 +50,30 @@ fn nothing_to_compare_is_an_error() {
     assert!(separation(&lines, &plan, &[], &[]).is_err());
     assert!(separation(&lines, &Plan { noise: Some(&[]), ..plan }, &[], &[Hypothesis::NOMINAL]).is_err());
 }
+
+/// By the twelfth power of a size each step of Gauss and Newton takes a twelfth of the way from 14 to 1: thirty of them, where a descent has sixteen.
+#[test]
+fn a_rival_is_followed_to_its_end() {
+    let lines = Lines::with_either(ROWS).with_power(12).starting_at(7.0 * PRIOR_SD);
+    let plan = Plan { records: &[0], instants: &instants(&lines), noise: None };
+    let one = [Active { mechanism: 0, values: vec![1.0], choice: None }];
+    let found = separation(&lines, &plan, &one, &alternatives(&lines, 2)).expect("a separation");
+    assert!(found.squared < found.own + 0.1, "{} {}", found.squared, found.own);
+}
+
+/// What `times` records of one unit tell is what one record tells whose noise is smaller by the root of that: its constants are one.
+#[test]
+fn records_of_one_unit_tell_what_one_of_less_noise_tells() {
+    let lines = Lines::with_constants(ROWS, 0.0).without_offset();
+    let once = instants(&lines);
+    let squared = |times: usize, noise: f64| {
+        let white = [NoiseModel::white(noise, 0.0)].map(|noise| NoiseModel { drift: 1e-9, walk: 1e-9, ..noise });
+        let (records, instants) = (vec![0; times], vec![once[0].clone(); times]);
+        let plan = Plan { records: &records, instants: &instants, noise: Some(&white) };
+        separation(&lines, &plan, &truth(), &[Hypothesis::RECALIBRATED]).expect("a separation").squared
+    };
+    let (alone, four, quieter) = (squared(1, WHITE), squared(4, WHITE), squared(1, WHITE / 2.0));
+    assert!((four / quieter - 1.0).abs() < 1e-4, "{four} {quieter}");
+    // a constant within its tolerance does the same as the truth: four records tell hardly more than one
+    assert!(four < 1.1 * alone, "{four} {alone}");
+}

@@ -12,6 +12,7 @@
 
 mod error;
 pub mod input;
+mod note;
 pub mod output;
 mod remark;
 pub mod schema;
@@ -19,5 +20,6 @@ mod shown;
 pub mod units;
 
 pub use error::Error;
-pub use remark::{Explanation, Note, Remark, Severity};
+pub use note::{Note, Severity};
+pub use remark::{Explanation, Remark};
 pub use shown::{shown, shown_json, shown_lines, shown_path};

@@ -1,12 +1,8 @@
-//! Warnings and notes: each has an id that never changes, and an explanation.
-
-use std::fmt;
-use std::path::PathBuf;
+//! Kinds of warnings and notes: each has an id that never changes, and an explanation.
 
 use recording::check::FindingKind;
-use serde::{Serialize, Serializer};
 
-use crate::shown_path;
+use crate::note::{Note, Severity};
 
 /// Cause, consequence and remedy of a remark: the columns of the table below.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,6 +77,18 @@ remarks! {
         "`coil.material` and `dehomogenization` name different cells by `FromCell`.",
         "The strain in the fibre is that of another cell than the winding's stiffness and expansion: the sensitivity is no coil's.",
         "Name one cell in both; in a plan vary both under one key, `coil.material and dehomogenization`.";
+    OtherMass "other-mass":
+        "The cell that `FromCell` names gives another density or specific heat than `coil` by more than the tolerance of that number.",
+        "Heat flows through the coil as `coil` says, and its stiffness is the cell's: one of the two is another winding's, or in another unit.",
+        "Take what `fogcoil homogenize` prints of the cell, or give the number a wider tolerance.";
+    CutTolerance "cut-tolerance":
+        "`tolerances` gives a start or an end of the winding more than a quarter of the distance from the outermost turn's centre to the coil's face there.",
+        "That quarter is taken: four standard deviations take no turn's centre out of the coil. Bands and diagnoses count no more.",
+        "Nothing if the turns fill the coil: they cannot lie elsewhere. Else check both ends and `coil.height_mm`.";
+    UntoldMaterial "untold-material":
+        "Of a cell's materials some have a density or a specific heat, and others have none.",
+        "The cell has no mean of it: it is left out of the constants.",
+        "Give it to the materials that are named, or to none.";
     BrokenPattern "broken-pattern":
         "The number of layers is no multiple of the pattern's period: 2 of a dipole, 4 of a quadrupole, 8 of an octupole.",
         "The two halves of the fibre are not balanced; the sensitivity may be several times as large.",
@@ -375,68 +383,6 @@ remarks! {
         "Leave out --without unless an inspection showed it.";
 }
 
-/// Importance of a note.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Severity {
-    /// It may make the whole answer void.
-    Warning,
-    /// It is good to know.
-    Note,
-}
-
-/// Something that a user should know although nothing is wrong.
-///
-/// The printed form, and the value in JSON, is `FILE: text [id]`, of a warning `warning: FILE: text [id]`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Note {
-    /// Its kind.
-    pub remark: Remark,
-    /// Its importance.
-    pub severity: Severity,
-    /// The file that it is about, where the text alone does not say it.
-    pub place: Option<PathBuf>,
-    /// The text, in words.
-    pub text: String,
-}
-
-impl Note {
-    /// The same, about a file.
-    #[must_use]
-    pub fn at(self, file: impl Into<PathBuf>) -> Self {
-        Self { place: Some(file.into()), ..self }
-    }
-
-    /// Whether it may make the whole answer void.
-    pub fn is_warning(&self) -> bool {
-        self.severity == Severity::Warning
-    }
-
-    /// The form among others of its kind: `FILE: text [id]`.
-    pub fn message(&self) -> String {
-        let place = self.place.as_ref().map_or(String::new(), |file| format!("{}: ", shown_path(file)));
-        format!("{place}{} [{}]", self.text, self.remark.id())
-    }
-
-    /// The form among other lines: `warning: FILE: text [id]` or `note: FILE: text [id]`.
-    pub fn line(&self) -> String {
-        let kind = if self.is_warning() { "" } else { "note: " };
-        format!("{kind}{self}")
-    }
-}
-
-impl fmt::Display for Note {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let kind = if self.is_warning() { "warning: " } else { "" };
-        write!(f, "{kind}{}", self.message())
-    }
-}
-
-impl Serialize for Note {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
-    }
-}
-
 impl Remark {
     /// Whether it says that a record is read wrongly, or is no record of the unit: what is concluded from it is void.
     pub fn voids(self) -> bool {
@@ -480,19 +426,5 @@ impl Remark {
             FindingKind::Offset { .. } => Self::Offset,
             _ => Self::OtherFinding,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_printed_carries_place_and_id() {
-        let note = Remark::LongTail.note("a tail");
-        assert_eq!((note.to_string(), note.line()), ("a tail [long-tail]".into(), "note: a tail [long-tail]".into()));
-        let warning = Remark::Gap.warning("a gap").at("r.csv");
-        let said = "warning: r.csv: a gap [gap]".to_owned();
-        assert_eq!((warning.to_string(), warning.line(), warning.message()), (said.clone(), said, "r.csv: a gap [gap]".into()));
     }
 }

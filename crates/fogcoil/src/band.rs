@@ -1,5 +1,7 @@
 //! Effect of the tolerances of a design on a simulation: the response to each number a standard deviation away, to first order.
 
+mod largest;
+
 use std::io::{self, Write};
 
 use coil::{Drive, Mechanics, Number, propagated};
@@ -16,19 +18,22 @@ use crate::input::keyed;
 use crate::prepare::library;
 use crate::simulate::{SimulatedRow, Simulation, number, windowed};
 use crate::summary::{Regression, Summary, over_time};
+use crate::sweep::Spread;
 use crate::table::{significant, table};
 
 /// A simulation's band: one standard deviation of each of its results.
 pub struct CourseBand {
     /// Instant \[s\], rate \[deg/h\] and its standard deviation, thermometer \[°C\] and its own, of every row.
     rows: Vec<[f64; 5]>,
-    /// Standard deviation of the rate in the row with the largest |rate| \[deg/h\].
+    /// Standard deviation of the rate in the row in which the drawing's |rate| is largest \[deg/h\].
     pub peak: f64,
+    /// Spread over units of the largest |rate| of each, in whichever row that is \[deg/h\].
+    pub largest: Option<Spread>,
     /// Standard deviation of the root mean square \[deg/h\].
     pub rms: f64,
     /// Standard deviation of the slope on the thermometer's rate \[(deg/h)/(degC/min)\]; `None` if there is none.
     pub slope: Option<f64>,
-    /// Shares of the variance at the peak by the keys of the numbers, the largest first.
+    /// Shares of the variance of the rate in the row of `peak`, by the keys of the numbers, the largest first.
     pub shares: Vec<(&'static str, f64)>,
 }
 
@@ -103,6 +108,8 @@ impl CourseBand {
         let sd = |changes: &[f64]| propagated(changes, correlation).0;
         let of_row = |(n, row): (usize, SimulatedRow)| [row.time, row.rate, sd(&at(1, n)), row.spool, sd(&at(0, n))];
         let peak = simulation.rows().position(|row| row.time == summary.peak.time).unwrap_or(0);
+        let rates: Vec<f64> = simulation.rows().map(|row| row.rate).collect();
+        let by_rate: Vec<&[f64]> = changes.iter().map(|change| change.rows[1].as_slice()).collect();
         let (at_peak, of_numbers) = propagated(&at(1, peak), correlation);
         let key = |number: Number| keyed(number, &simulation.case.design).map(|(key, _)| key);
         let mut shares: Vec<(&'static str, f64)> =
@@ -111,6 +118,7 @@ impl CourseBand {
         Self {
             rows: simulation.rows().enumerate().map(of_row).collect(),
             peak: at_peak,
+            largest: largest::largest(&rates, &by_rate, correlation),
             rms: sd(&rms),
             slope: summary.slope.map(|_| sd(&slope)),
             shares,
@@ -133,11 +141,15 @@ impl CourseBand {
         [self.rows[row][3], self.rows[row][4]]
     }
 
-    /// The band as one JSON object: one standard deviation each.
+    /// The band as one JSON object: one standard deviation each, and the spread of the largest |rate|.
     pub fn json(&self) -> Value {
         let shares = self.shares.iter().map(|(key, share)| json!({"key": key, "share": share}));
+        let largest = self.largest.as_ref().map(|Spread { mean, sd, quantiles: [_, p05, p50, p95, _], .. }| {
+            json!({"mean": mean, "sd": sd, "p05": p05, "p50": p50, "p95": p95})
+        });
         json!({
             "peak_deg_per_h": self.peak,
+            "largest_deg_per_h": largest,
             "rms_deg_per_h": self.rms,
             "slope": self.slope,
             "shares_at_peak": shares.collect::<Vec<_>>(),
@@ -149,14 +161,19 @@ impl CourseBand {
         let line = |name: &str, value: String, unit: &str| vec![name.to_owned(), value, unit.to_owned()];
         let mut rows = vec![
             line("by the design's tolerances (1 sigma, linear)", String::new(), ""),
-            line("  largest |rate|", format!("± {}", significant(self.peak, 2)), "deg/h"),
+            line("  rate in the row of the drawing's largest |rate|", format!("± {}", significant(self.peak, 2)), "deg/h"),
             line("  root mean square of the rate", format!("± {}", significant(self.rms, 2)), "deg/h"),
         ];
         rows.extend(self.slope.map(|slope| line("  slope", format!("± {}", significant(slope, 2)), "(deg/h)/(degC/min)")));
         let share = |(key, share): &(&str, f64)| {
-            line(&format!("    {key}"), format!("{:.0} %", 100.0 * share), "of the variance at the peak")
+            line(&format!("    {key}"), format!("{:.0} %", 100.0 * share), "of the variance of the rate in that row")
         };
-        rows.extend(self.shares.iter().take(TOLD).map(share));
+        rows.splice(2..2, self.shares.iter().take(TOLD).map(share));
+        if let Some(Spread { mean, sd, quantiles: [_, p05, _, p95, _], .. }) = &self.largest {
+            let [mean, p05, p95] = [mean, p05, p95].map(|value| significant(*value, 3));
+            rows.push(line("largest |rate| of a unit, mean over units", format!("{mean} ± {}", significant(*sd, 2)), "deg/h"));
+            rows.push(line("  of nine units in ten", format!("{p05} to {p95}"), "deg/h"));
+        }
         table(&rows)
     }
 

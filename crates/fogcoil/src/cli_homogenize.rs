@@ -64,6 +64,7 @@ pub(crate) fn run(arguments: &Homogenize, progress: &Progress) -> Result<(), Err
     let Homogenize { cell, json, temperatures, vtu, svg, .. } = arguments;
     progress.reads(std::slice::from_ref(cell), &[vtu.as_deref(), svg.as_deref()])?;
     let any = input::read_any_cell(cell)?;
+    progress.tell(any.untold().map(|note| note.at(cell)).as_slice());
     let has_tables = matches!(&any, AnyCell::General(general) if general.temperatures().is_some());
     if !temperatures.is_empty() && !has_tables {
         let problem = "no constituent is a table over temperature: the constants are the same at all";

@@ -77,12 +77,8 @@ pub(crate) fn run(arguments: &Recommend, progress: &Progress) -> Result<(), Erro
         progress.tasks(|tell| recommend::recommend(&case, &asked.with_catalogue(), between, &records, &limits, &cache, tell))?;
     if let Some(path) = out {
         progress.save(&[(path, Content::Text(result.profiles[0].programme.csv()))])?;
-        if !result.profiles[0].odds.decides() {
-            progress.note(&format!(
-                "{} does not separate {}: no profile within the limits does; it is the best of the insufficient ones",
-                files::shown_path(path),
-                between.join(", ")
-            ));
+        if let Some(caveat) = recommend::caveat(&result, &files::shown_path(path)) {
+            progress.note(&caveat);
         }
     }
     print(&if *json { line(&recommend::json(&result)) } else { recommend::text(&result) })

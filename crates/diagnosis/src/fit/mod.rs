@@ -37,6 +37,8 @@ use crate::{Active, Error};
 
 /// Starts that are followed to the end.
 const STARTS: usize = 4;
+/// Descents one after another, at most.
+const MOST_DESCENTS: usize = 12;
 /// Difference of ln p below which two fits have ended alike: ten times the change at which one settles.
 const ALIKE: f64 = 0.05;
 /// Least gain of ln evidence by a round of fitting the noise after which another round follows.
@@ -48,7 +50,23 @@ impl Fitter<'_> {
         self.best(&Objective::new(self, hypothesis, noise)?, known, &[])
     }
 
-    /// The same beside a fit under the same noise, whose derivatives by nuisances are taken for this one's: several times as fast. Mechanisms change
+    /// The same, begun anew from where it ended until that leads no further: a descent has so many steps, too few where the records lie far from its start.
+    pub(crate) fn fit_to_the_end(&self, hypothesis: &Hypothesis, noise: &Noise) -> Result<Fit, Error> {
+        let mut best = self.fit(hypothesis, noise, None)?;
+        for _ in 0..MOST_DESCENTS {
+            let further = self.fit(hypothesis, noise, Some(&best))?;
+            let gained = best.value() - further.value();
+            if gained > 0.0 {
+                best = further;
+            }
+            if gained < ALIKE {
+                break;
+            }
+        }
+        Ok(best)
+    }
+
+    /// The same as [`Self::fit`] beside a fit under the same noise, whose derivatives by nuisances are taken for this one's: several times as fast. Mechanisms change
     /// the effect of nuisances a little; where the records know a nuisance far better than its prior, the fit may stay behind the best.
     pub(crate) fn screened(&self, hypothesis: &Hypothesis, beside: &Fit) -> Result<Fit, Error> {
         self.screened_from(hypothesis, beside, &[])

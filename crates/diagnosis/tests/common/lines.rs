@@ -78,6 +78,11 @@ impl Lines {
         lines
     }
 
+    /// The same where mechanisms act by a power of their sizes.
+    pub(crate) fn with_power(self, power: i32) -> Self {
+        Self { power, ..self }
+    }
+
     /// The same where fits start from a size.
     pub(crate) fn starting_at(mut self, size: f64) -> Self {
         self.mechanisms.iter_mut().for_each(|mechanism| mechanism.starts = vec![vec![size]]);

@@ -15,6 +15,8 @@ use super::mirror::Mirror;
 use super::opened::open;
 use super::source::{CELL, Source};
 use crate::Error;
+use crate::note::Note;
+use crate::remark::Remark;
 
 const MOST_RINGS: usize = 16;
 
@@ -82,6 +84,26 @@ fn any(path: &Path, source: &Source) -> Result<AnyCell, InputError> {
 /// The complaint about a key that a regular cell does not have.
 fn irregular(top: &Group, key: &str) -> InputError {
     top.fault(key, "the cell must be regular here", "leave the key out, or take `fogcoil homogenize`")
+}
+
+impl AnyCell {
+    /// A note on materials that have no density or no specific heat where others have one.
+    pub fn untold(&self) -> Option<Note> {
+        let each: Vec<(&str, [Option<f64>; 2])> = match self {
+            Self::Regular(case, _) => {
+                let names = case.ring_names.iter().map(String::as_str).chain(["adhesive"]);
+                names.zip(case.cell.constituents().map(|c| [c.density, c.specific_heat])).collect()
+            }
+            Self::General(case) => case.phases.iter().map(|(name, _, material)| (name.as_str(), material.masses())).collect(),
+        };
+        let of = |(k, key): (usize, &str)| {
+            let lacking: Vec<&str> = each.iter().filter(|(_, values)| values[k].is_none()).map(|(name, _)| *name).collect();
+            let some = !lacking.is_empty() && lacking.len() < each.len();
+            some.then(|| format!("{} without {key}, which the others have", lacking.join(", ")))
+        };
+        let said: Vec<String> = ["density_kg_per_m3", "specific_heat_j_per_kgk"].into_iter().enumerate().filter_map(of).collect();
+        (!said.is_empty()).then(|| Remark::UntoldMaterial.note(format!("{}: the cell's mean is left out", said.join("; "))))
+    }
 }
 
 /// Common part of every cell: a fibre of rings, and constituents.

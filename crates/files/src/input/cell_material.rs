@@ -51,6 +51,15 @@ impl Material {
         Solid::isotropic(&only.or_else(between)?).ok()
     }
 
+    /// Its density and specific heat, as far as they are given.
+    pub(super) fn masses(&self) -> [Option<f64>; 2] {
+        match self {
+            Self::Isotropic(c) => [c.density, c.specific_heat],
+            Self::Orthotropic(solid) => [solid.density, solid.specific_heat],
+            Self::Table(rows) => rows.first().map_or([None; 2], |(_, c)| [c.density, c.specific_heat]),
+        }
+    }
+
     /// Temperatures \[°C\] it is given for; none if constant.
     pub(crate) fn range(&self) -> Option<[f64; 2]> {
         match self {

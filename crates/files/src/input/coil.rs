@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use coil::{Body, Dehomogenization, Design, Layout, Sensor, SteadySensitivity, Tolerances};
+use coil::{Body, Dehomogenization, Design, Layout, Number, Parameter, Sensor, SteadySensitivity, Tolerances};
 use homogenization::{Constants, Packing, TOLERANCE};
 use winding::Winding;
 
@@ -17,11 +17,12 @@ use super::mirror::Mirror;
 use super::opened::open;
 use super::source::{COIL, Source};
 use super::spool_file::spool;
-use super::tolerances::{Unused, tolerances};
+use super::tolerances::{self, Unused};
 use super::warnings::{in_medium, warnings};
 use super::winding_file::winding;
 use super::{InputError, heat};
-use crate::remark::{Note, Remark};
+use crate::note::Note;
+use crate::remark::Remark;
 use crate::units::to_mm;
 use crate::{Error, shown_path};
 
@@ -74,6 +75,8 @@ struct Cells<'a> {
     top: Group<'a>,
     source: &'a Source,
     done: Vec<(PathBuf, Constants)>,
+    /// Mean density \[kg/m³\] and heat capacity of a volume \[J/(m³ K)\] of each, as far as its file gives them, with the name of the file.
+    masses: Vec<(String, [Option<f64>; 2])>,
     fingerprints: Vec<Fingerprint>,
     /// Notes on numbers that were replaced by an approximation.
     notes: Vec<Note>,
@@ -142,6 +145,7 @@ fn checked(path: &Path, source: Source, unused: Unused) -> Result<CoilCase, Erro
         top: top.clone(),
         source: &source,
         done: Vec::new(),
+        masses: Vec::new(),
         fingerprints: vec![source.fingerprint()],
         notes: Vec::new(),
         pitch: winding.spec().pitch,
@@ -187,11 +191,13 @@ fn checked(path: &Path, source: Source, unused: Unused) -> Result<CoilCase, Erro
         let problem = "the thermometer lies outside the solids, and a film stands in place of the medium";
         return Err(top.fault("sensor", problem, "move it into the spool or the coil, or remove heat.film_w_per_m2k").into());
     }
-    let tolerances = tolerances(&top, &file.tolerances, &file.correlations, &design, unused)?;
+    let tolerances = tolerances::tolerances(&top, &file.tolerances, &file.correlations, &design, unused)?;
+    let cut = tolerances::cut(&tolerances, &design);
+    cells.compare_masses(&design, &tolerances);
     let name = file.name;
     let provenance = Provenance { material, dehomogenization: row };
     let (file, fingerprints) = (path.to_owned(), cells.fingerprints);
-    let warnings = [cells.notes, warnings(&design, &layout, &winding)].concat();
+    let warnings = [cells.notes, warnings(&design, &layout, &winding), cut].concat();
     Ok(CoilCase { file, name, design, tolerances, winding, provenance, fingerprints, warnings })
 }
 
@@ -317,8 +323,11 @@ impl Cells<'_> {
             return Ok(done.clone());
         }
         let unusable = |inner: InputError| self.top.fault(field, format!("the cell cannot be used: {inner}"), "");
-        let (constants, fingerprint) = match read_any_cell(&path).map_err(unusable)? {
-            AnyCell::General(case) => (self.nearest(field, named, &case)?, case.fingerprint),
+        let (constants, masses, fingerprint) = match read_any_cell(&path).map_err(unusable)? {
+            AnyCell::General(case) => {
+                let (constants, masses) = self.nearest(field, named, &case)?;
+                (constants, masses, case.fingerprint)
+            }
             AnyCell::Regular(case, _) if case.cell.packing == Packing::Square => {
                 let problem = format!("the cell {named:?} is packed square, but a coil's law is isotropic across the fibre");
                 let remedy = "give a cell of hexagonal packing, or the constants themselves";
@@ -326,9 +335,12 @@ impl Cells<'_> {
             }
             AnyCell::Regular(case, _) => {
                 self.compare_pitch(field, named, case.cell.pitch);
-                (case.homogenize_to(TOLERANCE)?.constants, case.fingerprint)
+                // what is out of range was refused when the file was read
+                let masses = [case.cell.density(), case.cell.heat_capacity()].map(|mean| mean.ok().flatten());
+                (case.homogenize_to(TOLERANCE)?.constants, masses, case.fingerprint)
             }
         };
+        self.masses.push((named.to_owned(), masses));
         self.fingerprints.push(fingerprint);
         self.done.push((path.clone(), constants));
         Ok((path, constants))
@@ -343,8 +355,30 @@ impl Cells<'_> {
         }
     }
 
-    /// The nearest transversely isotropic constants of a general cell, with a note of how far they are.
-    fn nearest(&mut self, field: &str, named: &str, case: &GeneralCase) -> Result<Constants, Error> {
+    /// Warns of a density and a specific heat of the coil that are not those of its cell.
+    fn compare_masses(&mut self, design: &Design, tolerances: &Tolerances) {
+        for (named, [density, capacity]) in &self.masses {
+            let specific_heat = density.zip(*capacity).map(|(density, capacity)| capacity / density);
+            for (key, parameter, of_cell) in [
+                ("density_kg_per_m3", Parameter::CoilDensity, *density),
+                ("specific_heat_j_per_kgk", Parameter::CoilSpecificHeat, specific_heat),
+            ] {
+                let of_coil = parameter.of(design);
+                let sd = tolerances.sd(Number::Constant(parameter), design);
+                if let (Some(of_cell), Some(of_coil), Some(sd)) = (of_cell, of_coil, sd)
+                    && (of_cell - of_coil).abs() > sd
+                {
+                    self.notes.push(Remark::OtherMass.warning(format!(
+                        "coil.{key} is {of_coil}, that of the cell {named:?} is {of_cell:.1}: more than one standard deviation of its tolerance, \
+                         {sd:.1}; is this meant?"
+                    )));
+                }
+            }
+        }
+    }
+
+    /// The nearest transversely isotropic constants of a general cell, with a note of how far they are, and its density and heat capacity.
+    fn nearest(&mut self, field: &str, named: &str, case: &GeneralCase) -> Result<(Constants, [Option<f64>; 2]), Error> {
         if case.temperatures().is_some() {
             let problem = format!("the cell {named:?} has tables over temperature, but a coil has one set of constants");
             let remedy = "give those of one temperature, as `fogcoil homogenize --temperatures` prints them";
@@ -365,6 +399,6 @@ impl Cells<'_> {
             "{field}: the cell {named:?} is not isotropic across the fibre by {far:.2} % of strain energy; its mean over all turns about \
              the fibre is taken"
         )));
-        Ok(constants)
+        Ok((constants, found.heavy))
     }
 }

@@ -12,7 +12,8 @@ use super::record_format::{ColumnFormat, RecordFormat};
 use super::record_notes;
 use super::record_options::Key;
 use super::rows::{Dialect, Rows, Table};
-use crate::remark::{Note, Remark};
+use crate::note::Note;
+use crate::remark::Remark;
 
 /// Rooms \[°C\].
 pub(super) const ROOM_C: [f64; 2] = [15.0, 30.0];

@@ -9,7 +9,8 @@ use super::record_columns::shown;
 use super::record_format::RecordFormat;
 use super::record_options::{Key, TIME};
 use super::rows::{Rows, quoted};
-use crate::remark::{Note, Remark};
+use crate::note::Note;
+use crate::remark::Remark;
 
 const CHAMBER: &str = "chamber_c";
 

@@ -80,9 +80,16 @@ quantities! {
     ModulusMpa: 1e-6 to 2e6, "MPa", "70200.0 for silica", from_mpa, to_mpa;
     ModulusGpa: 1e-9 to 2e3, "GPa", "70.2 for silica", from_gpa, to_gpa;
     ExpansionPerK: -1e-2 to 1e-2, "1/K", "0.55e-6 for silica", identity, identity;
-    Conductivity: 1e-6 to 1e4, "W/(m K)", "1.38 for silica", identity, identity;
-    Density: 1e-9 to 3e4, "kg/m3", "1400.0", identity, identity;
-    SpecificHeat: 1.0 to 1e5, "J/(kg K)", "1300.0", identity, identity;
+    // of solids, so that kW/(m K), g/cm3 and kJ/(kg K) lie outside. Least: silica aerogel, 0.012 W/(m K) (Fricke and Emmerling, Structure and Bonding 77,
+    // 1992); melamine foam, 9 to 11 kg/m3 (BASF, Basotect); uranium, 116 J/(kg K) (CRC Handbook). Most: diamond of one isotope, 3320 W/(m K) (Anthony et
+    // al., Phys. Rev. B 42, 1990); osmium, 22590 kg/m3; lithium, 3580 J/(kg K), and water in a gel, 4180
+    Conductivity: 0.01 to 4e3, "W/(m K)", "1.38 for silica", identity, identity;
+    Density: 9.0 to 2.3e4, "kg/m3", "1400.0", identity, identity;
+    SpecificHeat: 100.0 to 5e3, "J/(kg K)", "1300.0", identity, identity;
+    // of a medium: from a thin gas to a liquid metal; xenon has 158 J/(kg K), hydrogen 14300
+    MediumConductivity: 1e-6 to 1e2, "W/(m K)", "0.026 for air", identity, identity;
+    MediumDensity: 1e-9 to 2e4, "kg/m3", "1.2 for air", identity, identity;
+    MediumSpecificHeat: 100.0 to 2e4, "J/(kg K)", "1005.0 for air", identity, identity;
     Ratio: -10.0 to 10.0, "", "0.392", identity, identity;
     LagS: 0.0 to 1e6, "s", "20.0", identity, identity;
     Resistance: 0.0 to 1e2, "m2 K/W", "1e-4", identity, identity;

@@ -19,7 +19,8 @@ use super::record_options::{Key, RecordOptions};
 use super::rows::{NOT_UTF8, Rows, Table, quoted};
 use super::timestamp;
 use crate::Error;
-use crate::remark::{Note, Remark};
+use crate::note::Note;
+use crate::remark::Remark;
 
 /// Most rows: what fits in a gigabyte with its checks.
 const MOST_ROWS: usize = 10_000_000;

@@ -11,7 +11,8 @@ use super::record_options::Key;
 use super::rows::{Rows, quoted};
 use super::timestamp::{self, Date, FORMS, First, is_day, slashed, time_of_day};
 use super::unit_names::spelled;
-use crate::remark::{Note, Remark};
+use crate::note::Note;
+use crate::remark::Remark;
 
 /// Seconds of a day.
 const DAY_S: f64 = 86_400.0;

@@ -8,7 +8,8 @@ use super::record_format::{ColumnFormat, RecordFormat};
 use super::record_options::Key;
 use super::rows::quoted;
 use super::unit_names::{bracketed, ending, foreign, is_temperature};
-use crate::remark::{Note, Remark};
+use crate::note::Note;
+use crate::remark::Remark;
 
 /// Notes on the columns; `dates` is the note on instants that are not seconds of a column.
 pub(super) fn notes(columns: &RecordColumns, format: &RecordFormat, dates: Option<Note>) -> Vec<Note> {

@@ -11,7 +11,8 @@ use super::profile::{Wanted, read_rows};
 use super::profile_columns::{DRIVES, RESULTS, names};
 use super::record_options::TIME;
 use super::rows::{Dialect, Rows, quoted};
-use crate::remark::{Note, Remark};
+use crate::note::Note;
+use crate::remark::Remark;
 
 const SPOOL: &str = "spool_c";
 /// Most rows of a record: the smoother holds some 300 bytes of each.

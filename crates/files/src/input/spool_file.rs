@@ -9,7 +9,8 @@ use super::InputError;
 use super::group::Group;
 use super::mirror::{Mirror, mirrored, says_default};
 use super::quantity::{
-    Conductivity, Density, ExpansionPerK, ExtraLengthMm, LagS, LengthMm, ModulusGpa, PositionMm, SpecificHeat, WallMm,
+    Conductivity, Density, ExpansionPerK, ExtraLengthMm, LagS, LengthMm, MediumConductivity, MediumDensity, MediumSpecificHeat,
+    ModulusGpa, PositionMm, SpecificHeat, WallMm,
 };
 use super::winding_file::SideFile;
 use crate::units::to_mm;
@@ -29,11 +30,11 @@ pub(crate) struct SurroundingsFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct MediumFile {
     /// Thermal conductivity.
-    pub(crate) conductivity_w_per_mk: Conductivity,
+    pub(crate) conductivity_w_per_mk: MediumConductivity,
     /// Density.
-    pub(crate) density_kg_per_m3: Density,
+    pub(crate) density_kg_per_m3: MediumDensity,
     /// Specific heat.
-    pub(crate) specific_heat_j_per_kgk: SpecificHeat,
+    pub(crate) specific_heat_j_per_kgk: MediumSpecificHeat,
 }
 
 mirrored! {

@@ -11,6 +11,8 @@ use serde::{Deserialize, Deserializer, Serialize};
 use super::InputError;
 use super::group::Group;
 use super::name::meant;
+use crate::note::Note;
+use crate::remark::Remark;
 use crate::units::parameter_unit;
 
 /// One standard deviation of a number: a share of it, or in the unit of its key.
@@ -18,6 +20,23 @@ use crate::units::parameter_unit;
 pub(crate) enum ToleranceFile {
     Relative(f64),
     Absolute(f64),
+}
+
+/// A note on each place of the winding whose tolerance is given and more than a design's turns have room for.
+pub(super) fn cut(tolerances: &Tolerances, design: &Design) -> Vec<Note> {
+    let of = |(number, tolerance): &(Number, Tolerance)| {
+        let (key, unit) = key(*number, design)?;
+        let (given, taken) = (tolerance.of(number.of(design)?), tolerances.sd(*number, design)?);
+        let [given, taken] = [given, taken].map(|sd| format!("{:.5}", sd / unit).trim_end_matches('0').to_owned());
+        (given != taken).then(|| {
+            Remark::CutTolerance.note(format!(
+                "tolerances: of {key:?} {taken} is taken in place of {given}, a quarter of the distance from the outermost turn's centre to the \
+                 coil's face"
+            ))
+        })
+    };
+    let of_winding = |(number, _): &&(Number, Tolerance)| matches!(number, Number::Constant(parameter) if parameter.of_winding());
+    tolerances.given.iter().filter(of_winding).filter_map(of).collect()
 }
 
 /// Keys of two numbers, and their correlation.
@@ -233,12 +252,13 @@ fn given(at: &Group, file: &TolerancesFile, design: &Design) -> Result<Vec<(Numb
     Ok(given)
 }
 
-/// The keys of a design's numbers with the usual tolerances: all that it has.
+/// The keys of a design's numbers with the usual tolerances: all that it has but the ends of its winding.
 #[cfg(test)]
 fn usual(design: &Design) -> TolerancesFile {
     let of = |&(key, number, unit): &(&str, Number, f64)| {
         let has = match number {
-            Number::Constant(parameter) => parameter.of(design).is_some(),
+            // as much as its turns have room for
+            Number::Constant(parameter) => !parameter.of_winding() && parameter.of(design).is_some(),
             Number::SensorLag => design.sensor.lag > 0.0,
             Number::ThermoOptic | Number::Tail => true,
         };
@@ -305,13 +325,32 @@ mod tests {
                 .unwrap_or_default()
                 .contains("a share of 0 says nothing where it is 0; give it in m")
         );
-        let start = |tolerance: &str| {
-            read(&TEMPLATE.replace("\"winding.start_mm\": Absolute(0.035)", &format!("\"winding.start_mm\": {tolerance}")))
-                .err()
-                .unwrap_or_default()
+        let with_start = |tolerance: &str| {
+            TEMPLATE.replace("\"winding.tails_m\": ", &format!("\"winding.start_mm\": {tolerance}, \"winding.tails_m\": "))
         };
+        let start = |tolerance: &str| read(&with_start(tolerance)).err().unwrap_or_default();
         assert!(start("Relative(0.1)").contains("give it in mm"), "{}", start("Relative(0.1)"));
         assert_eq!(start("Absolute(0.01)"), "");
+        // an eighth of a turn of 0.17 mm, and a quarter of the room, are taken of more
+        for (coil, given, taken) in [("", "0.021", None), ("", "0.035", Some("0.02125")), ("18.1", "0.035", Some("0.03125"))] {
+            let text = with_start(&format!("Absolute({given})")).replace(
+                "cw_climbs:",
+                match coil {
+                    "" => "cw_climbs:",
+                    _ => "start_mm: 0.04, end_mm: 18.06, cw_climbs:",
+                },
+            );
+            let text = text.replace("height_mm: 18.02", &format!("height_mm: {}", if coil.is_empty() { "18.02" } else { coil }));
+            let warnings = check_coil(Path::new("coil.ron"), &text).expect("a design").warnings;
+            let told: Vec<&str> = warnings.iter().map(|note| note.text.as_str()).collect();
+            match taken {
+                None => assert!(told.is_empty(), "{told:?}"),
+                Some(taken) => {
+                    let says = format!("tolerances: of \"winding.start_mm\" {taken} is taken in place of {given},");
+                    assert!(told.len() == 1 && told[0].starts_with(&says), "{told:?}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -3,7 +3,8 @@
 use coil::{Design, Layout, Region, Sensor};
 use winding::{Half, Pattern, Winding};
 
-use crate::remark::{Note, Remark};
+use crate::note::Note;
+use crate::remark::Remark;
 use crate::units::to_mm;
 
 /// Room between winding and rectangle that a drawing leaves, in pitches.

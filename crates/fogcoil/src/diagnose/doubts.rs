@@ -1,6 +1,6 @@
 //! Doubts about an explanation that its probability does not tell.
 
-use diagnosis::{Estimate, Place, Role, Verdict};
+use diagnosis::{Estimate, Place, Role, Settings, Verdict};
 
 use super::Outcome;
 use super::constants::FAR;
@@ -40,9 +40,15 @@ impl Outcome<'_> {
         })
     }
 
-    /// The constants that would have to lie far off the drawing if no mechanism took part.
+    /// The constants that would have to lie far off the drawing if no mechanism took part, unless that is excluded.
     fn instead(&self) -> Option<String> {
-        let alone = self.diagnosis.candidates.iter().find(|candidate| candidate.is_constants_alone())?;
+        let candidates = &self.diagnosis.candidates;
+        let alone = candidates.iter().find(|candidate| candidate.is_constants_alone())?;
+        // what is excluded is no other way to read the record
+        let most = candidates.iter().map(|candidate| candidate.probability).fold(0.0, f64::max);
+        if alone.probability < Settings::default().excluded * most {
+            return None;
+        }
         let all = alone.fit.posteriors(&self.gyro);
         let far = all.iter().filter(|p| p.place == Place::Nominal(Role::Constant) && p.u.abs() > FAR);
         let said: Vec<String> = far

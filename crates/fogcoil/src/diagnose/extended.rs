@@ -1,9 +1,9 @@
 //! The extended model: the design with what was found put in at its place, as a coil file.
 
 use diagnosis::{Active, ForwardModel, Place, Posterior, Role, Verdict};
-use mechanisms::with_constant;
+use mechanisms::{RATE as RATE_CHANNEL, with_constant};
 
-use super::{Outcome, Record};
+use super::{Held, Outcome, Record};
 use crate::input::check_coil;
 use crate::output::coil_file;
 use crate::table::significant;
@@ -68,11 +68,7 @@ impl Outcome<'_> {
         let mut lines = vec![format!("{}, extended by fogcoil diagnose.", self.name), self.verdict()];
         lines.push(format!("Fitted to: {}.", names(&mut self.fits.iter())));
         if !self.holdouts.is_empty() {
-            let verdict = if self.accepted() { "predicted, to two digits, no worse than by" } else { "predicted worse than by" };
-            lines.push(format!(
-                "Held out: {}; {verdict} the nominal design.",
-                names(&mut self.holdouts.iter().map(|held| &held.record))
-            ));
+            lines.extend(self.holdouts.iter().map(held_out));
         }
         lines.push(match self.diagnosis.verdict {
             Verdict::Unknown if self.law().is_some() => {
@@ -108,6 +104,15 @@ impl Record {
             self.fingerprint.file.components().rev().take(2).map(|part| part.as_os_str().to_string_lossy()).collect();
         parts.into_iter().rev().collect::<Vec<_>>().join("/")
     }
+}
+
+/// What a record that was held out says of the fit and of the nominal design.
+fn held_out(held: &Held) -> String {
+    let [fitted, nominal] = [&held.model, &held.nominal].map(|by| significant(by.rmse[RATE_CHANNEL], 3));
+    format!(
+        "Held out: {}; what was fitted predicts its rate to {fitted} deg/h rms, the nominal design to {nominal}.",
+        held.record.name()
+    )
 }
 
 fn said(posterior: &Posterior, ci90: [f64; 2]) -> String {

@@ -27,7 +27,7 @@ pub use picture::svg;
 pub use programme::{Limits, Programme, programmes};
 pub(crate) use question::Question;
 pub use recommendation::{Ranked, Recommendation, Size, WithSensor};
-pub use say::{json, text};
+pub use say::{caveat, json, text};
 pub(crate) use say::{number, sentence, with};
 
 /// Notes against the use of sizes and noise from some records: units of another design, meta files that their records contradict.

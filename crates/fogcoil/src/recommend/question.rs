@@ -115,15 +115,14 @@ impl Question<'_> {
                 Repeat { name, records: vec![recorded], instants, noise: proposed_noise, times: 1.0 }
             }
         };
-        // a repeat tells as much again in as much time again
-        let again = |odds: Odds| Odds { sigma: odds.sigma * repeat.times.sqrt(), log_odds: odds.log_odds * repeat.times, ..odds };
-        let as_it_was = again(told(&repeat.records, &repeat.instants, &repeat.noise)?);
+        let as_it_was = told(&repeat.records, &repeat.instants, &repeated(repeat.noise, repeat.times))?;
         let (number, best) = (profiles[0].0, &profiles[0].1.programme);
         let mut sensors = Vec::new();
         if thorough || !profiles[0].1.odds.decides() {
             progress(Step::begins("further sensors"));
             let sensor = format!("a spool thermometer of {FINE_K} K");
-            let finer_repeat = again(told(&repeat.records, &whole_spool(repeat.instants.clone()), &finer(repeat.noise))?);
+            let noise = repeated(finer(repeat.noise), repeat.times);
+            let finer_repeat = told(&repeat.records, &whole_spool(repeat.instants.clone()), &noise)?;
             let finer_best = told(&[number], &[everything(best)], &finer(proposed_noise))?;
             sensors.push(WithSensor { sensor: sensor.clone(), programme: repeat.name.clone(), odds: finer_repeat });
             sensors.push(WithSensor { sensor, programme: best.name.clone(), odds: finer_best });
@@ -176,6 +175,13 @@ fn whole_spool(mut instants: Vec<Observation>) -> Vec<Observation> {
 
 fn finer([spool, rate]: [NoiseModel; 2]) -> [NoiseModel; 2] {
     [NoiseModel { white: FINE_K.min(spool.white), drift: FINE_DRIFT * spool.drift, ..spool }, rate]
+}
+
+/// Noise of one record that tells as much as `times` of the kind, or as a part of one: of the same unit, so that their constants are one. What is no
+/// other in the next record, the model's own error, stays.
+fn repeated(noise: [NoiseModel; 2], times: f64) -> [NoiseModel; 2] {
+    let root = times.sqrt();
+    noise.map(|n| NoiseModel { white: n.white / root, drift: n.drift / root, walk: n.walk / root, ..n })
 }
 
 /// The noise of means over another span.

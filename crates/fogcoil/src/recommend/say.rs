@@ -55,6 +55,28 @@ pub(crate) fn number(x: f64) -> String {
     if x.abs() >= 9.95 { format!("{x:.0}") } else { format!("{x:.1}") }
 }
 
+fn repeat_is_better(r: &Recommendation) -> bool {
+    r.repeat.1.log_odds > r.profiles[0].odds.log_odds
+}
+
+/// What a file with the best profile must not be taken for; `None` where it holds what is recommended.
+pub fn caveat(r: &Recommendation, file: &str) -> Option<String> {
+    let Ranked { programme, odds } = &r.profiles[0];
+    if repeat_is_better(r) {
+        return Some(format!(
+            "{file} holds {}, the best of the profiles that were compared (ln odds {}); {}, done again, gives more (ln odds {})",
+            programme.name,
+            number(odds.log_odds),
+            r.repeat.0,
+            number(r.repeat.1.log_odds)
+        ));
+    }
+    let all = r.between.join(", ");
+    (!odds.decides()).then(|| {
+        format!("{file} does not separate {all}: no profile within the limits does; it is the best of the insufficient ones")
+    })
+}
+
 pub(crate) fn sentence(r: &Recommendation) -> String {
     let best = &r.profiles[0];
     let [truth, rival] = &best.odds.pair;
@@ -63,7 +85,7 @@ pub(crate) fn sentence(r: &Recommendation) -> String {
     let hardest = if several { format!(", the hardest pair being {truth} and {rival}") } else { String::new() };
     let (name, odds) = (&best.programme.name, number(best.odds.log_odds));
     let (repeat, repeated) = (&r.repeat.0, number(r.repeat.1.log_odds));
-    let repeat_is_better = r.repeat.1.log_odds > best.odds.log_odds;
+    let repeat_is_better = repeat_is_better(r);
     if r.repeat.1.decides() && (repeat_is_better || !best.odds.decides()) {
         return format!(
             "{repeat} separates {all} best (ln odds {repeated}{hardest}): do it again, as long as {} h. No profile within the limits gives more; \

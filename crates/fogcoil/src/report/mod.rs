@@ -13,6 +13,7 @@ use crate::band::CourseBand;
 use crate::figures;
 use crate::simulate::{Fields, Simulation};
 use crate::summary::{Summary, entries};
+use crate::sweep::Spread;
 
 const PARTS: [(&str, &str); 3] =
     [("shupe", "Shupe"), ("eo_axial", "elasto-optic, axial strain"), ("eo_radial", "elasto-optic, radial strain")];
@@ -55,9 +56,14 @@ fn lead(simulation: &Simulation, band: Option<&CourseBand>) -> Markup {
             }
             " The errors are those of the computation."
             @if let Some(band) = band {
-                " By the design's tolerances the largest bias has a standard deviation of " (significant(band.peak, 2)) " °/h"
+                @if let Some(Spread { mean, sd, quantiles: [_, p05, _, p95, _], .. }) = &band.largest {
+                    " By the design's tolerances the largest |bias| of a unit, at whichever instant it comes, is " (significant(*mean, 3))
+                    " ± " (significant(*sd, 2)) " °/h (mean and standard deviation over units), of nine units in ten "
+                    (significant(*p05, 3)) " to " (significant(*p95, 3)) " °/h."
+                }
+                " At " (Seconds(peak.time).to_string()) " s the bias of a unit has a standard deviation of " (significant(band.peak, 2)) " °/h"
                 @if let Some((key, share)) = band.shares.first() {
-                    "; " (format!("{:.0}", 100.0 * share)) " % of its variance are due to " code { (key) }
+                    "; " (format!("{:.0}", 100.0 * share)) " % of that variance are due to " code { (key) }
                 }
                 "."
             }

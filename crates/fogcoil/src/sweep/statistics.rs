@@ -113,7 +113,7 @@ impl Summary {
 }
 
 impl Spread {
-    fn of(name: &'static str, mut values: Vec<f64>) -> Option<Self> {
+    pub(crate) fn of(name: &'static str, mut values: Vec<f64>) -> Option<Self> {
         values.iter_mut().filter(|value| value.abs() < ROUNDING).for_each(|value| *value = 0.0);
         values.sort_by(f64::total_cmp);
         let (count, last) = (values.len() as f64, values.len().checked_sub(1)?);

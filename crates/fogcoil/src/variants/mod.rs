@@ -18,4 +18,5 @@ pub use follow::Dimensions;
 pub use group::Group;
 pub use read::{MOST_FACTORS, Others, variants};
 pub use value::Value;
+pub(crate) use varied::normal;
 pub use varied::{Choice, Varied, each_once};

@@ -74,7 +74,7 @@ const MOST_LEVELS: usize = 100_000;
 const WITHIN: f64 = 1.0 / (1u64 << 25) as f64;
 
 /// The standard normal deviation at a coordinate between 0 and 1.
-pub(super) fn normal(u: f64) -> f64 {
+pub(crate) fn normal(u: f64) -> f64 {
     normal_quantile(u.clamp(WITHIN, 1.0 - WITHIN))
 }
 

@@ -58,6 +58,7 @@ fn a_bad_value_in_a_cell_file() {
         ("youngs_modulus_mpa: 70200.0", "youngs_modulus_mpa: 70.2e9", "rings[0].material.youngs_modulus_mpa", "in MPa"),
         ("expansion_per_k: 0.55e-6", "expansion_per_k: 0.55", "rings[0].material.thermal_expansion_per_k", "e.g. 0.55e-6"),
         ("conductivity_w_per_mk: 0.45", "conductivity_w_per_mk: -1", "adhesive.conductivity_w_per_mk", "not greater than 0"),
+        ("conductivity_w_per_mk: 0.45", "conductivity_w_per_mk: 0.00045", "adhesive.conductivity_w_per_mk", "the least accepted"),
     ];
     refuse_all(CELL, "cell.ron", &["homogenize", "cell.ron", "--json"], cases);
 }
@@ -86,6 +87,13 @@ fn a_bad_value_in_the_winding() {
 #[test]
 fn a_bad_value_in_the_coil() {
     let cases: &[Case] = &[
+        // g/cm3, kJ/(kg K), kW/(m K)
+        ("density_kg_per_m3: 1400.0", "density_kg_per_m3: 1.4", "coil.density_kg_per_m3", "1.4 kg/m3 is less than 9 kg/m3"),
+        ("density_kg_per_m3: 2700.0", "density_kg_per_m3: 4.43", "spool.material.density_kg_per_m3", "the least accepted"),
+        ("kgk: 1300.0", "kgk: 1.3", "coil.specific_heat_j_per_kgk", "1.3 J/(kg K) is less than 100 J/(kg K)"),
+        ("kgk: 896.0", "kgk: 0.526", "spool.material.specific_heat_j_per_kgk", "give the value in J/(kg K)"),
+        ("mk: 167.0", "mk: 0.0067", "spool.material.conductivity_w_per_mk", "0.0067 W/(m K) is less than 0.01 W/(m K)"),
+        ("kgk: 1005.0", "kgk: 1.005", "surroundings.medium.specific_heat_j_per_kgk", "the least accepted"),
         ("outer_radius_mm: 48.825", "outer_radius_mm: 48.0", "coil.outer_radius_mm", "the winding reaches 48.8229 mm"),
         ("outer_radius_mm: 48.825", "outer_radius_mm: 5.325", "coil.outer_radius_mm", "not greater than winding.inner_radius_mm"),
         ("cw_climbs: Right", "start_mm: -0.1, cw_climbs: Right", "winding.start_mm", "give more than -0.0850"),

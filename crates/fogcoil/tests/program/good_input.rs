@@ -200,6 +200,28 @@ fn constants_and_row_from_a_cell() {
         let warnings = read_coil(&folder.write("coil.ron", mixed)).unwrap().warnings;
         assert_eq!(warnings.iter().filter(|warning| warning.remark == Remark::OtherCell).count(), warned, "{warnings:?}");
     }
+    // so is a cell whose density or specific heat is another than the coil's
+    let known = |density: f64| {
+        let with = format!("density_kg_per_m3: {density:?}, specific_heat_j_per_kgk: 1300.0, youngs_modulus_mpa");
+        CELL.replace("youngs_modulus_mpa", &with)
+    };
+    for (density, warned) in [(1400.0, 0), (1460.0, 1)] {
+        folder.write("cells/cell.ron", known(density));
+        let warnings = read_coil(&folder.write("coil.ron", &coil)).unwrap().warnings;
+        let told: Vec<&str> = warnings.iter().filter(|w| w.remark == Remark::OtherMass).map(|w| w.text.as_str()).collect();
+        assert_eq!(told.len(), warned, "{warnings:?}");
+        assert!(
+            told.iter().all(|t| t.starts_with("coil.density_kg_per_m3 is 1400, that of the cell \"cells/cell.ron\" is 1460.0")),
+            "{told:?}"
+        );
+    }
+    // a material without what the others have is named
+    let lacking = known(1400.0).replacen("specific_heat_j_per_kgk: 1300.0, ", "", 1);
+    let output = folder.run(&["homogenize", folder.write("cells/cell.ron", lacking).to_str().unwrap()]);
+    assert!(
+        stderr(&output).contains("without specific_heat_j_per_kgk, which the others have")
+            && stderr(&output).contains("[untold-material]")
+    );
     let printed = read_coil(&folder.write("coil.ron", change(COIL, matrix, "Printed"))).unwrap();
     assert_eq!(printed.design.dehomogenization.m_rx, 2.74e-6);
     assert_eq!(printed.provenance.dehomogenization, Origin::Printed);

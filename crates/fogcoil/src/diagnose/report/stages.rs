@@ -27,30 +27,31 @@ impl Outcome<'_> {
         let stages = &self.diagnosis.stages;
         let row = |s: &diagnosis::Stage| {
             let white = s.whiteness.get(RATE).map_or(String::new(), |p| spectrum::judged(*p));
-            vec![s.stage.clone(), gained(s.gain), format!("{:.3}", s.probability), white]
+            vec![s.stage.clone(), gained(s.gain), white]
         };
         let rows: Vec<Vec<String>> = stages.iter().map(row).collect();
-        let head =
-            ["flexible input at", "ln evidence gained", "probability, of one smooth input alone", "rate's residual, Ljung–Box"];
+        let head = ["any smooth course put in at", "ln evidence gained", "rate's residual, Ljung–Box"];
         let restored = stages.iter().any(|s| s.whiteness.get(RATE).is_some_and(|p| *p >= spectrum::WHITE));
         let leads_white = stages.first().is_some_and(|s| s.whiteness.get(RATE).is_some_and(|p| *p >= spectrum::WHITE));
         let said = if matches!(self.diagnosis.verdict, Verdict::None | Verdict::Recalibrate) && self.stands_surely() {
             "Design, constants and instruments do the same here, and these records show no part at fault."
         } else if restored && !leads_white {
-            "The part that gains most does not leave the rate's residual white: the difference is not one smooth input there, and the \
-             probabilities compare shapes, not causes."
+            "The part that gains most does not leave the rate's residual white: the difference is not one smooth course there."
         } else if restored {
             "Where several gain alike, this recording does not tell them apart."
         } else {
-            "None leaves the rate's residual white: the difference is not what one smooth input makes, and the probabilities compare \
-             stages that all fail."
+            "None leaves the rate's residual white: the difference is not what one smooth course makes, and the order of the parts says \
+             nothing."
         };
         html! {
             @if !stages.is_empty() {
-                h3 { "Part of the chain" } "\n"
+                h3 { "One smooth course at each part of the chain" } "\n"
                 @if let Some(elsewhere) = self.elsewhere() { p { (elsewhere) } "\n" }
-                (grid("Parts of the chain compared", Cells::Words, &head, &rows))
-                p { "One flexible input at a time takes the place of every mechanism. " (said) } "\n"
+                (grid("What any smooth course at one part would follow: not the place of the fault", Cells::Words, &head, &rows))
+                p {
+                    "One course at a time, free but for being smooth, takes the place of every mechanism. It shows how much of the difference has the \
+                     shape that this part gives; where the fault is, the mechanisms' probabilities say. " (said)
+                } "\n"
             }
             (self.layers())
         }
@@ -65,7 +66,7 @@ impl Outcome<'_> {
         let own = |name: &str| stages.iter().find(|s| s.stage == name && s.probability < FAR);
         let (id, own) = self.places().find_map(|(id, stage, _)| Some((id.to_owned(), own(stage)?)))?;
         Some(format!(
-            "{id} acts in the part \"{}\". One smooth input there gains {} of ln evidence, in the part \"{}\" {} more. Such an input has not the law of a \
+            "{id} acts in the part \"{}\". One smooth course there gains {} of ln evidence, in the part \"{}\" {} more. Such a course has not the law of a \
              mechanism: which mechanism it is, the table of probabilities above says; this one is no proof of it.",
             own.stage,
             gained(own.gain),
