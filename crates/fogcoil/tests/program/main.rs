@@ -8,6 +8,7 @@ mod bad_input;
 mod bad_instants;
 mod bad_profile;
 mod bad_record;
+mod band;
 mod batch;
 mod cache;
 mod calibrate;
