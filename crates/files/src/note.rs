@@ -31,6 +31,18 @@ pub struct Note {
     pub text: String,
 }
 
+impl Remark {
+    /// A note of this kind.
+    pub fn note(self, text: impl Into<String>) -> Note {
+        Note { remark: self, severity: Severity::Note, place: None, text: text.into() }
+    }
+
+    /// A warning of this kind.
+    pub fn warning(self, text: impl Into<String>) -> Note {
+        Note { severity: Severity::Warning, ..self.note(text) }
+    }
+}
+
 impl Note {
     /// The same, about a file.
     #[must_use]

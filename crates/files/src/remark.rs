@@ -2,8 +2,6 @@
 
 use recording::check::FindingKind;
 
-use crate::note::{Note, Severity};
-
 /// Cause, consequence and remedy of a remark: the columns of the table below.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Explanation {
@@ -387,16 +385,6 @@ impl Remark {
     /// Whether it says that a record is read wrongly, or is no record of the unit: what is concluded from it is void.
     pub fn voids(self) -> bool {
         matches!(self, Self::ExchangedColumns | Self::LooseThermometer | Self::ChamberJump | Self::ReversedRate)
-    }
-
-    /// A note of this kind.
-    pub fn note(self, text: impl Into<String>) -> Note {
-        Note { remark: self, severity: Severity::Note, place: None, text: text.into() }
-    }
-
-    /// A warning of this kind.
-    pub fn warning(self, text: impl Into<String>) -> Note {
-        Note { severity: Severity::Warning, ..self.note(text) }
     }
 
     /// The kind of a finding of [`recording::check`].
