@@ -268,7 +268,7 @@ remarks! {
          beyond 15.04 deg/h check unit and scale.";
     Line "line":
         "The rate has a line: a sinusoid of one period, 20 cycles or more in the record, that noise makes in fewer than one record in a million. Fitted and taken off are at most eight.",
-        "It is kept out of the noise and its Allan deviation, but not out of a diagnosis or a sensitivity. Rows fold a fast one: of a line of frequency f in rows at an interval t, f may be any whole number of 1/t more or less.",
+        "It is kept out of the noise and its Allan deviation. A diagnosis takes it off the rate where no temperature has it and it is the same in every quarter of the record; else it is compared as it is. A sensitivity is fitted beside it. Rows fold a fast one: of a line of frequency f in rows at an interval t, f may be any whole number of 1/t more or less.",
         "Look for mains hum, a fan, a pump or a converter, and at the chamber's controller if the chamber's temperature has the line, too. Rows at another interval show a folded line at another period.";
     OtherFinding "other":
         "`check` found something that has no page of its own.",

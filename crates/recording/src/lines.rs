@@ -48,6 +48,21 @@ impl Line {
     }
 }
 
+impl Line {
+    /// Amplitude of a sinusoid of its period in some rows: instants \[s\] and what the line leaves there. `None` where these rows do not tell it.
+    pub fn left<'a>(&self, rows: impl Iterator<Item = (&'a f64, &'a f64)>) -> Option<f64> {
+        let mut sums = [0.0; 5];
+        for (t, value) in rows {
+            let (sine, cosine) = phase(t - self.start, 1.0 / self.period).sin_cos();
+            let products = [cosine * cosine, sine * sine, cosine * sine, cosine * value, sine * value];
+            sums.iter_mut().zip(products).for_each(|(sum, product)| *sum += product);
+        }
+        let [cc, ss, cs, cv, sv] = sums;
+        let determinant = cc * ss - cs * cs;
+        (determinant > 1e-6 * cc * ss).then(|| (cv * ss - sv * cs).hypot(sv * cc - cv * cs) / determinant)
+    }
+}
+
 /// The line of a series that noise is least likely to be; `None` where noise may be it. NaN is a value that is not used.
 ///
 /// `white` is the series whitened, in which the line is sought; `values` is the series itself, which tells its amplitude.

@@ -80,7 +80,10 @@ fn noise(noise: &GyroNoise) -> Value {
             "model_deg_per_h": model.allan_deviation(point.tau, noise.interval),
         })
     };
-    let line = |RateLine { line, of }: &RateLine| json!({"period_s": line.period, "amplitude_deg_per_h": line.amplitude(), "of_temperature": of});
+    let line = |RateLine { line, of, is_steady }: &RateLine| {
+        let amplitude = line.amplitude();
+        json!({"period_s": line.period, "amplitude_deg_per_h": amplitude, "of_temperature": of, "steady": is_steady})
+    };
     json!({
         "white_deg_per_h": model.white,
         "angle_random_walk_deg_per_sqrt_h": noise.angle_random_walk(),

@@ -13,6 +13,13 @@ const MOST_LINES: usize = 8;
 /// Steps of the channel's last digit that a line exceeds: what rounding makes of an even drift is a third of one.
 const ROUNDED: f64 = 0.5;
 
+/// Parts of a record in which a line is compared with that of the whole, and the share of its amplitude by which it may differ there.
+const PARTS: f64 = 4.0;
+const ALIKE: f64 = 0.5;
+/// Least change \[K\] of a ramp, and share of all that a course goes which is its change, from which it is nothing but a ramp.
+const FEWEST_KELVIN: f64 = 1.0;
+const ONE_WAY: f64 = 0.9;
+
 /// A line of the rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RateLine {
@@ -20,6 +27,8 @@ pub struct RateLine {
     pub line: Line,
     /// The temperature that has it, too.
     pub of: Option<&'static str>,
+    /// Whether it is the same in every quarter of the record, whatever the temperature does there.
+    pub is_steady: bool,
 }
 
 /// Lines in what a model of the noise leaves of a rate, NaN where a row is not used, the strongest first; none beyond [`MOST_LINES`] with those known.
@@ -41,14 +50,37 @@ pub(super) fn take_off(line: &Line, time: &[f64], values: &mut [f64]) {
     values.iter_mut().zip(time).for_each(|(value, t)| *value -= line.at(*t));
 }
 
-/// Lines with the temperature that has them, too.
-pub(super) fn of(lines: Vec<Line>, time: &[f64], temperature: Option<(&'static str, &[f64])>) -> Vec<RateLine> {
+/// Lines with the temperature that has them, too; `rest` is what the noise leaves of the rate beside them, `course` the temperature without its noise.
+pub(super) fn of(
+    lines: Vec<Line>,
+    (time, rest): (&[f64], &[f64]),
+    temperature: Option<(&'static str, &[f64])>,
+    course: Option<&[f64]>,
+) -> Vec<RateLine> {
     let has = |line: &Line| temperature.filter(|(_, values)| has_line(time, values, line.period)).map(|(name, _)| name);
-    lines.into_iter().map(|line| RateLine { line, of: has(&line) }).collect()
+    let is_ramp = course.is_some_and(is_ramp);
+    lines.into_iter().map(|line| RateLine { line, of: has(&line), is_steady: !is_ramp && goes_on(&line, time, rest) }).collect()
 }
 
-/// A warning of the lines.
-pub(super) fn lined(lines: &[RateLine]) -> Option<Note> {
+/// Whether a course is one ramp, in which a ripple over temperature is a line over time.
+fn is_ramp(course: &[f64]) -> bool {
+    let travel: f64 = course.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
+    let net = course.last().zip(course.first()).map_or(0.0, |(last, first)| (last - first).abs());
+    net > FEWEST_KELVIN && net > ONE_WAY * travel
+}
+
+/// Whether a line is the same in every quarter of a series, of which `rest` is what it leaves.
+fn goes_on(line: &Line, time: &[f64], rest: &[f64]) -> bool {
+    let (start, length) = (time[0], time[time.len() - 1] - time[0]);
+    let quarter = |t: f64| (PARTS * (t - start) / length).floor().min(PARTS - 1.0);
+    (0..PARTS as usize).all(|n| {
+        let rows = time.iter().zip(rest).filter(|(t, value)| quarter(**t) == n as f64 && value.is_finite());
+        line.left(rows).is_some_and(|left| left < ALIKE * line.amplitude())
+    })
+}
+
+/// A warning of the lines, and what is done about them.
+pub(crate) fn lined(lines: &[RateLine], done: &str) -> Option<Note> {
     let most = lines.iter().max_by(|a, b| a.line.amplitude().total_cmp(&b.line.amplitude()))?;
     let others = match lines.len() {
         1 => String::new(),
@@ -59,8 +91,49 @@ pub(super) fn lined(lines: &[RateLine]) -> Option<Note> {
         format!("{name} has it, too, so that the chamber may make it")
     });
     Some(Remark::Line.warning(format!(
-        "{RATE} has a line with a period of {} s and an amplitude of {} deg/h{others}: {source}; kept out of the noise",
+        "{RATE} has a line with a period of {} s and an amplitude of {} deg/h{others}: {source}; {done}",
         Seconds((most.line.period * 1e3).round() / 1e3),
         significant(most.line.amplitude(), 2)
     )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROWS: usize = 1200;
+    const PERIOD: f64 = 400.0;
+
+    /// The strongest line of a series beside even noise, and whether it goes on.
+    fn goes_on_in(of: impl Fn(f64) -> f64) -> bool {
+        let time: Vec<f64> = (0..ROWS).map(|n| 30.0 * n as f64).collect();
+        let mut state = 1_u64;
+        let mut noise = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / f64::from(1_u32 << 24) - 0.5
+        };
+        let values: Vec<f64> = time.iter().map(|t| of(*t) + noise()).collect();
+        let line = strongest(&time, &values, &values).expect("a line");
+        assert!((line.period / PERIOD - 1.0).abs() < 0.02, "{line:?}");
+        let mut rest = values;
+        take_off(&line, &time, &mut rest);
+        goes_on(&line, &time, &rest)
+    }
+
+    /// A ripple over temperature is a line while that ramps: in the other quarters, or at another pace, there is none.
+    #[test]
+    fn a_line_goes_on_or_belongs_to_a_ramp() {
+        let end = 30.0 * ROWS as f64;
+        let wave = |t: f64| (std::f64::consts::TAU * t / PERIOD + 1.0).sin();
+        assert!(goes_on_in(wave));
+        assert!(!goes_on_in(|t| if t > 0.5 * end { 2.0 * wave(t) } else { 0.0 }));
+        assert!(!goes_on_in(|t| if t > 0.4 * end { 2.0 * wave(t) } else { 2.0 * wave(t / 3.0) }));
+    }
+
+    #[test]
+    fn one_ramp_alone_tells_no_line_from_a_ripple() {
+        let course = |of: fn(f64) -> f64| (0..ROWS).map(|n| of(n as f64 / ROWS as f64)).collect::<Vec<_>>();
+        assert!(is_ramp(&course(|x| 20.0 + 40.0 * x)) && is_ramp(&course(|x| 60.0 - 40.0 * x)));
+        assert!(!is_ramp(&course(|x| 20.0 + 40.0 * (6.0 * x).sin())) && !is_ramp(&course(|x| 20.0 + 0.2 * x)));
+    }
 }

@@ -15,6 +15,7 @@ mod text;
 use bias::units::S_PER_H;
 use charts::{Axis, Figure, Panel, Series as Line, Style, significant};
 use files::Note;
+use recording::Recording;
 use recording::allan::{AllanPoint, CONFIDENCE, allan};
 use recording::check::white_noise_beyond_cubics;
 use recording::condition::bridged;
@@ -27,7 +28,8 @@ use crate::input::{CHAMBER, RATE, RecordCase, SPOOL};
 use crate::prepare::{stands_still, starts_off_rest};
 use jumped::jumped;
 use lags::lags;
-use lined::{lined, take_off};
+pub(crate) use lined::lined;
+use lined::take_off;
 use order::spool_first;
 
 pub use json::json;
@@ -130,7 +132,7 @@ impl<'a> Analysis<'a> {
         let noise = if usable { gyro_noise(case) } else { None };
         let seen = usable.then(|| [spool_first(case), jumped(case), starts_off_rest(case)]).into_iter().flatten().flatten();
         let contradicted = if usable { contradictions(case) } else { Vec::new() };
-        let lined = noise.as_ref().and_then(|noise| lined(&noise.lines));
+        let lined = noise.as_ref().and_then(|noise| lined(&noise.lines, "kept out of the noise"));
         let notes = case.notes.iter().cloned().chain(seen).chain(contradicted).chain(lined).collect();
         Self { case, notes, noise }
     }
@@ -160,7 +162,7 @@ fn gyro_noise(case: &RecordCase) -> Option<GyroNoise> {
     let mut bounds = Bounds::new(case.averaging, time);
     let mut used = mask.clone();
     let (mut passes, mut lines) = (0, Vec::new());
-    let (estimate, allan, neighbours) = loop {
+    let (estimate, allan, neighbours, rest) = loop {
         let series = Series { time, values: &values, mask: &used, columns: &columns };
         let estimate = identify(&series, &bounds).ok()?;
         let rest = residual(&series, &estimate.model).ok()?;
@@ -182,12 +184,24 @@ fn gyro_noise(case: &RecordCase) -> Option<GyroNoise> {
         if !more || passes == MOST_PASSES {
             let rows = still.iter().filter(|there| **there).count();
             let neighbours = white_noise_beyond_cubics(time, &values, &still).filter(|sd| *sd > 0.0).map(|sd| (sd, rows));
-            break (estimate, allan, neighbours);
+            break (estimate, allan, neighbours, rest);
         }
     };
     let left_out = mask.iter().zip(&used).filter(|(there, used)| **there && !**used).count();
-    let lines = lined::of(lines, time, driver.zip(readings.as_deref()));
+    let lines = lined::of(lines, (time, &rest), driver.zip(readings.as_deref()), temperature.as_deref());
     Some(GyroNoise { estimate, driver, is_bound, lags, lines, left_out, allan, interval: instants.interval, neighbours })
+}
+
+/// A recording without the lines of its rate that go on whatever the temperature does, which no temperature has, and these lines.
+pub(crate) fn without_lines(case: &RecordCase) -> Option<(RecordCase, Vec<RateLine>)> {
+    let lines = gyro_noise(case)?.lines.into_iter().filter(|line| line.of.is_none() && line.is_steady).collect::<Vec<_>>();
+    let mut channels = case.recording.channels().to_vec();
+    let time = case.recording.time();
+    for RateLine { line, .. } in &lines {
+        take_off(line, time, &mut channels[case.number(RATE)?].values);
+    }
+    let recording = Recording::new(time.to_vec(), channels).ok()?;
+    (!lines.is_empty()).then(|| (RecordCase { recording, ..case.clone() }, lines))
 }
 
 /// A temperature without its thermometer's noise, which would pass for the rate's through the lags; masked values are on the course between their neighbours.

@@ -14,6 +14,7 @@ mod in_rows;
 mod json;
 mod jumped;
 mod left;
+mod lines;
 mod loose;
 mod report;
 mod structure;
@@ -122,7 +123,10 @@ pub fn diagnose<'m>(
     let all = || fits.iter().copied().chain(holdouts);
     refuse_copies(all())?;
     let mut notes: Vec<Note> = all().filter_map(|record| other_design(case, record)).collect();
-    let mut read: Vec<Record> = all().map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
+    progress(Step::begins("lines in the rate"));
+    let (without_lines, of_lines) = lines::taken_off(all());
+    notes.extend(of_lines);
+    let mut read: Vec<Record> = without_lines.iter().map(|record| ready(record, &mut notes)).collect::<Result<_, _>>()?;
     let columns: Vec<&MechanismCase> = columns
         .iter()
         .filter(|own| own.mechanism.columns().iter().all(|name| read.iter().all(|record| record.has_column(name))))
