@@ -141,6 +141,10 @@ remarks! {
         "Below the last row of a recording stand lines without a number, a date or a time of day: remarks of the logger.",
         "They are not read.",
         "None is needed. A line that was a row once, and lost its numbers, is not read either: see the line that the message names.";
+    NamesAgain "names-again":
+        "The line of names stands again among the rows of a recording: a logger began anew.",
+        "It is not read, and neither are as many lines below it as the map file says of the first.",
+        "None is needed; `check` tells a gap or a step of the clock there.";
     AbsentColumn "absent-column":
         "A recording lacks the chamber's, the spool's temperature, or the rate.",
         "What that column would tell is not used; without chamber_c there is no diagnosis.",

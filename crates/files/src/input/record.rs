@@ -125,14 +125,14 @@ fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<(PathBuf, Meta)>)
     for _ in 0..format.dialect.below {
         rows.advance()?;
     }
-    let ReadRows { recording, ignored, lines, dates, footer } = read_rows(&mut rows, &columns, format)?;
+    let ReadRows { recording, ignored, lines, dates, unread } = read_rows(&mut rows, &columns, format)?;
     let earth = meta.as_ref().and_then(|(_, meta)| meta.rate_deg_per_h.earth());
     let report = check(&recording, &expectations(&recording, format, dates.is_some(), earth));
     let [interval, span] = report.instants.as_ref().map_or([0.0; 2], |instants| [instants.interval, instants.span]);
     let meta = meta.map(|(path, meta)| fits(&path, meta, span)).transpose()?;
     let averaging = meta.as_ref().map(|meta| meta.sample_interval_s).filter(|seconds| *seconds > 0.0).unwrap_or(interval);
     let mut notes = notes(&columns, format, dates);
-    notes.extend(footer);
+    notes.extend(unread);
     notes.extend(meta.as_ref().and_then(|meta| interval_note(meta, interval)));
     let (flags, fingerprint) = (Vec::new(), rows.fingerprint());
     Ok(RecordCase { recording, ignored, report, averaging, meta, notes, lines, flags, fingerprint })
@@ -156,8 +156,8 @@ struct ReadRows {
     lines: Vec<u32>,
     /// The note on instants that are not seconds of a column.
     dates: Option<Note>,
-    /// The note on remarks below the rows.
-    footer: Option<Note>,
+    /// Notes on lines that are no rows.
+    unread: Vec<Note>,
 }
 
 /// Most values of columns that nothing reads that are kept: 160 MB.
@@ -174,9 +174,17 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
     let mut unused: Vec<(usize, Vec<f64>)> = columns.unused().into_iter().map(|column| (column, Vec::new())).collect();
     let (mut time, mut lines): (Vec<f64>, Vec<u32>) = (Vec::new(), Vec::new());
     let mut footer: Option<(u32, String, InputError)> = None;
+    let mut again: Vec<u32> = Vec::new();
     while rows.advance()? {
         // a spreadsheet's empty line; without instants it stands for one of them
         if format.interval.is_none() && rows.line().is_some() && rows.fields().all(str::is_empty) {
+            continue;
+        }
+        if !time.is_empty() && rows.line().is_some() && rows.fields().eq(columns.names.iter().map(String::as_str)) {
+            again.extend(rows.line());
+            for _ in 0..format.dialect.below {
+                rows.advance()?;
+            }
             continue;
         }
         if !time.is_empty() && is_remark(rows) {
@@ -257,9 +265,13 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
         Remark::Footer
             .note(format!("what begins in line {line}, {text}, holds no number: a remark below the rows, which is not read"))
     });
+    let names_again = again.first().map(|line| {
+        let more = if again.len() > 1 { format!(" and {} more", again.len() - 1) } else { String::new() };
+        Remark::NamesAgain.note(format!("line {line}{more} holds the names again, and is not read: the logger began anew"))
+    });
     let of_rows = |time, channels| Recording::new(time, channels).map_err(|error| rows.whole_fault(&error.to_string(), ""));
     let (ignored, recording) = (of_rows(time.clone(), unused)?, of_rows(time, channels)?);
-    Ok(ReadRows { recording, ignored, lines, dates, footer })
+    Ok(ReadRows { recording, ignored, lines, dates, unread: footer.into_iter().chain(names_again).collect() })
 }
 
 /// Whether a line of text says something, and no field of it is a number, a date or a time of day.

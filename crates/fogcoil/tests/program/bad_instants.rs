@@ -100,6 +100,14 @@ fn a_remark_below_the_rows() {
 }
 
 #[test]
+fn names_that_stand_again_are_no_row() {
+    let rows = table((0..40).map(|n| (30 * n).to_string()));
+    let names = rows.lines().next().unwrap().to_owned();
+    let again = rows.replacen("\n600,", &format!("\n{names}\n600,"), 1);
+    told(&again, &[], &["note: ", "line 22 holds the names again", "[names-again]", "rows kept       40  of 40"]);
+}
+
+#[test]
 fn a_point_beside_a_decimal_comma() {
     let row = |n: usize| format!("{};{}.{:03}\n", 30 * n, 1 + n % 3, 7 * n);
     let text = "time_s;rate_deg_per_h\n".to_owned() + &(0..100).map(row).collect::<String>();
