@@ -266,8 +266,8 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
             .note(format!("what begins in line {line}, {text}, holds no number: a remark below the rows, which is not read"))
     });
     let names_again = again.first().map(|line| {
-        let more = if again.len() > 1 { format!(" and {} more", again.len() - 1) } else { String::new() };
-        Remark::NamesAgain.note(format!("line {line}{more} holds the names again, and is not read: the logger began anew"))
+        let more = if again.len() > 1 { format!(", and so do {} more", again.len() - 1) } else { String::new() };
+        Remark::NamesAgain.note(format!("line {line} holds the names again{more}; they are not read: the logger began anew"))
     });
     let of_rows = |time, channels| Recording::new(time, channels).map_err(|error| rows.whole_fault(&error.to_string(), ""));
     let (ignored, recording) = (of_rows(time.clone(), unused)?, of_rows(time, channels)?);

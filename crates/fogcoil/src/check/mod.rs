@@ -195,13 +195,14 @@ fn gyro_noise(case: &RecordCase) -> Option<GyroNoise> {
 /// A recording without the lines of its rate that go on whatever the temperature does, which no temperature has, and these lines.
 pub(crate) fn without_lines(case: &RecordCase) -> Option<(RecordCase, Vec<RateLine>)> {
     let lines = gyro_noise(case)?.lines.into_iter().filter(|line| line.of.is_none() && line.is_steady).collect::<Vec<_>>();
-    let mut channels = case.recording.channels().to_vec();
-    let time = case.recording.time();
-    for RateLine { line, .. } in &lines {
-        take_off(line, time, &mut channels[case.number(RATE)?].values);
+    if lines.is_empty() {
+        return None;
     }
+    let (mut channels, time) = (case.recording.channels().to_vec(), case.recording.time());
+    let rate = &mut channels[case.number(RATE)?].values;
+    lines.iter().for_each(|RateLine { line, .. }| take_off(line, time, rate));
     let recording = Recording::new(time.to_vec(), channels).ok()?;
-    (!lines.is_empty()).then(|| (RecordCase { recording, ..case.clone() }, lines))
+    Some((RecordCase { recording, ..case.clone() }, lines))
 }
 
 /// A temperature without its thermometer's noise, which would pass for the rate's through the lags; masked values are on the course between their neighbours.
