@@ -101,8 +101,12 @@ fn misread(text: &str, error: &pest::error::Error<Rule>) -> Fault {
     let operand = wanted.iter().any(|rule| {
         matches!(rule, Rule::number | Rule::name | Rule::sum | Rule::call | Rule::group | Rule::operand | Rule::minus)
     });
-    let needed = if operand { "a number, a name or a bracket" } else { "an operator + - * / ^ or a closing bracket" };
     let remedy = "write products with *, powers with ^, decimals with a point";
+    let word: String = text[at.start..].chars().take_while(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '.')).collect();
+    if operand && word.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
+        return Fault::new(at.start..at.start + word.len(), format!("`{word}` is no number"), remedy);
+    }
+    let needed = if operand { "a number, a name or a bracket" } else { "an operator + - * / ^ or a closing bracket" };
     Fault::new(at, format!("{here} {needed} is needed"), remedy)
 }
 
@@ -279,7 +283,9 @@ mod tests {
             ("sin", 0..3, "`sin` is not known"),
             ("x,5", 1..1, "at `,`"),
             ("1e999", 0..5, "too large"),
-            ("3x", 0..0, "at `3`"),
+            ("3x", 0..2, "`3x` is no number"),
+            ("x + 1.2.3", 4..9, "`1.2.3` is no number"),
+            ("x 2", 2..2, "at `2` an operator"),
             ("", 0..0, "at the end a number"),
             ("x = 3", 2..2, "at `=`"),
             ("\u{1b}[2J", 0..0, "at `\\u{1b}`"),

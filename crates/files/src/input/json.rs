@@ -19,7 +19,12 @@ pub(super) fn ron(text: &str) -> Result<String, (usize, String)> {
     let value: Value = serde_json::from_str(text).map_err(|error| {
         let message = error.to_string();
         let said = message.split(" at line ").next().unwrap_or_default();
-        (error.line(), format!("is not JSON: {said}, at column {}", error.column()))
+        // what a line lacks at its end is found at the begin of the next
+        let (line, place) = match (error.line(), error.column()) {
+            (line @ 2.., 0) => (line - 1, "at its end".to_owned()),
+            (line, column) => (line, format!("at column {column}")),
+        };
+        (line, format!("is not JSON: {said}, {place}"))
     })?;
     let known = |schema: &Value| {
         value.as_object().map_or(0, |keys| keys.keys().filter(|key| !schema["properties"][key].is_null()).count())
@@ -28,6 +33,24 @@ pub(super) fn ron(text: &str) -> Result<String, (usize, String)> {
     let mut translation = Translation { text, at: 0, root, out: String::with_capacity(text.len()) };
     translation.value(root);
     Ok(translation.out + &text[translation.at..])
+}
+
+/// Remedies of faults of syntax: for RON, for JSON.
+const REMEDIES: [(&str, &str); 6] = [
+    ("write it in parentheses, (name: value, ...)", "write it in braces, {\"name\": value, ...}"),
+    ("write Normal(mean, standard deviation), e.g. Normal(0.0, 0.01)", "write {\"Normal\": [mean, standard deviation]}"),
+    (
+        "write LogNormal(median, standard deviation of the logarithm), e.g. LogNormal(1800.0, 1.0)",
+        "write {\"LogNormal\": [median, standard deviation of the logarithm]}",
+    ),
+    ("write Uniform(low, high), e.g. Uniform(0.0, 50.0)", "write {\"Uniform\": [low, high]}"),
+    ("write (\"first key\", \"second key\", 0.5)", "write [\"first key\", \"second key\", 0.5]"),
+    ("add it to the group that ends here", "add it to the braces that end here"),
+];
+
+/// A remedy of [`explain`](super::syntax::explain) for who writes JSON.
+pub(super) fn remedy(of_ron: String) -> String {
+    REMEDIES.iter().find(|(ron, _)| *ron == of_ron).map_or(of_ron, |(_, json)| (*json).to_owned())
 }
 
 /// A JSON text, valid, on its way to RON.
@@ -208,6 +231,7 @@ mod tests {
         let fault = |text: &str| ron(text).unwrap_err();
         assert_eq!(fault("{\n \"name\": \"a\"\n \"b\": 1\n}"), (3, "is not JSON: expected `,` or `}`, at column 2".into()));
         assert_eq!(fault("(name: \"a\")").0, 1);
+        assert_eq!(fault("{\n \"a\": tru\n}"), (2, "is not JSON: expected ident, at its end".into()));
         assert_eq!(fault(&"[".repeat(100_000)).0, 1);
     }
 

@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 use super::InputError;
 use super::fields::{FieldMap, join};
 use super::fingerprint::Fingerprint;
+use super::json;
 use super::scanner::{Scanner, Token};
 use super::syntax::explain;
 
@@ -78,6 +79,9 @@ impl Source {
         if map.is_cut_short {
             problem = format!("the file is cut short, or a bracket is never closed (the reader stopped here: {problem})");
             remedy = "close every bracket, or get the whole file".into();
+        }
+        if self.json.is_some() {
+            remedy = json::remedy(remedy);
         }
         let line = Some(error.span.start.line);
         InputError { line, field: Some(field).filter(|f| !f.is_empty()), ..InputError::whole(&self.path, problem, remedy) }
