@@ -134,6 +134,34 @@ proptest! {
     }
 }
 
+/// Two records with constants and offsets of their own share nothing.
+#[test]
+fn records_that_share_nothing_are_fitted_together_as_each_alone() {
+    let lines = Lines::with_own_constants(40);
+    let recorded = |(seed, size): (u64, f64)| -> Vec<f64> {
+        noise(40, seed)
+            .iter()
+            .zip(lines.column(0))
+            .zip(lines.column(1))
+            .map(|((e, a), b)| e + size * a - 0.4 * size * b)
+            .collect()
+    };
+    let records = [(1, 2.0), (2, -3.0)].map(|of| lines.observed(&recorded(of)));
+    let fit =
+        |records: &[Observation]| fitted(&lines, &vec![0; records.len()], records, &[Hypothesis::RECALIBRATED]).expect("a fit");
+    let (both, each) = (fit(&records), [0, 1].map(|k| fit(&records[k..=k])));
+    let sum = each[0].log_evidence + each[1].log_evidence;
+    assert!((both.log_evidence - sum).abs() < 1e-4, "{} {sum}", both.log_evidence);
+    for (together, alone) in both.nuisances.iter().zip(&each) {
+        assert!(
+            together.iter().zip(&alone.nuisances[0]).all(|(a, b)| (a - b).abs() < 1e-3),
+            "{together:?} {:?}",
+            alone.nuisances
+        );
+    }
+    assert!((both.nuisances[0][0] - both.nuisances[1][0]).abs() > 3.0, "{:?}", both.nuisances);
+}
+
 #[test]
 fn a_channel_that_stands_still_is_the_same_in_any_unit() {
     let of = |unit: f64| {

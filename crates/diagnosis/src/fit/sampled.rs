@@ -187,7 +187,7 @@ impl Objective<'_> {
         for fit in fits.iter().filter(|fit| fit.value() - least < FAR) {
             // one that has no width is no density
             let Some(mode) = Mode::of(fit) else { continue };
-            let known = modes.iter().any(|known| known.energy(&mode.at) < ONE * ONE / 2.0);
+            let known = modes.iter().any(|known| known.energy(&mode.at) < ONE.powi(2) / 2.0);
             if !known {
                 modes.push(mode);
             }
@@ -208,7 +208,7 @@ fn variance(values: &[f64]) -> f64 {
 fn described(laplace: Posterior, walks: &[Vec<f64>]) -> Sampled {
     let mut all: Vec<f64> = walks.concat();
     all.sort_by(f64::total_cmp);
-    let quantile = |share: f64| all[((share * all.len() as f64) as usize).min(all.len() - 1)];
+    let quantile = |share: f64| all[(share * all.len() as f64) as usize];
     let ends = [quantile(0.05), quantile(0.95)].map(|u| laplace.prior.value(u));
     let half = recording::statistics::normal_quantile(0.95) * laplace.sd;
     let inside = all.iter().filter(|u| (**u - laplace.u).abs() <= half).count() as f64 / all.len() as f64;
@@ -223,7 +223,7 @@ fn described(laplace: Posterior, walks: &[Vec<f64>]) -> Sampled {
 /// Number of independent samples: by the sum of autocorrelations while neighbouring pairs of them are positive (Geyer 1992).
 fn effective(walks: &[Vec<f64>], within: f64) -> f64 {
     let length = walks.iter().map(Vec::len).min().unwrap_or(0);
-    if within <= 0.0 || length < 4 {
+    if within <= 0.0 {
         return 0.0;
     }
     let at = |lag: usize| {
@@ -233,13 +233,77 @@ fn effective(walks: &[Vec<f64>], within: f64) -> f64 {
         };
         mean(&walks.iter().map(of).collect::<Vec<_>>()) / within
     };
-    let mut sum = 0.0;
-    for pair in 0..length / 4 {
-        let two = at(2 * pair) + at(2 * pair + 1);
-        if two <= 0.0 {
-            break;
-        }
-        sum += two;
-    }
+    // beyond a walk's length there is no pair, and none positive
+    let sum: f64 = (0..).map(|pair| at(2 * pair) + at(2 * pair + 1)).take_while(|two| *two > 0.0).sum();
     (walks.len() * length) as f64 / (2.0 * sum - 1.0).max(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Prior;
+    use crate::Role;
+    use crate::posterior::Place;
+    use statrs::distribution::{Continuous, Normal};
+
+    #[test]
+    fn exact_what_is_proposed_is_the_sum_of_the_minima_s_densities() {
+        // middles and standard deviations, some of which overlap
+        for normals in [&[(0.0, 0.5)][..], &[(0.0, 0.5), (1.0, 2.0)], &[(3.0, 0.1), (-1.0, 1.5), (3.1, 0.4)]] {
+            let modes: Vec<Mode> = normals
+                .iter()
+                .map(|(at, sd): &(f64, f64)| Mode {
+                    at: DVector::from_element(1, *at),
+                    axes: DMatrix::from_element(1, 1, *sd),
+                    precision: DMatrix::from_element(1, 1, sd.powi(-2)),
+                    half_log_det: sd.ln(),
+                })
+                .collect();
+            let density = |u: f64| normals.iter().map(|(at, sd)| Normal::new(*at, *sd).expect("a density").pdf(u)).sum::<f64>();
+            let energy = |u: f64| mixture(&modes, &DVector::from_element(1, u));
+            for u in [-4.0, -0.3, 0.6, 1.7, 3.05, 9.0] {
+                let ratio = (density(u) / density(0.2)).ln();
+                let said = energy(0.2) - energy(u);
+                assert!((said - ratio).abs() < 1e-9, "{normals:?} at {u}: {said} {ratio}");
+            }
+        }
+    }
+
+    fn known() -> Posterior {
+        let prior = Prior::Normal { mean: 0.0, sd: 1.0 };
+        Posterior { name: String::new(), place: Place::Nominal(Role::Constant), record: None, prior, u: 0.0, sd: 1.0 }
+    }
+
+    #[test]
+    fn walks_that_go_nowhere_agree_on_nothing() {
+        for places in [[0.25, 0.25], [0.25, -0.5]] {
+            let stuck = described(known(), &places.map(|at| vec![at; 16]));
+            assert_eq!((stuck.disagreement, stuck.effective), (f64::INFINITY, 0.0), "{places:?}");
+        }
+    }
+
+    /// However much a walk's places make up for one another.
+    #[test]
+    fn samples_are_no_more_than_steps() {
+        let to_and_fro: Vec<f64> = [1.0, -1.0].repeat(9);
+        assert_eq!(described(known(), &[to_and_fro.clone(), to_and_fro]).effective, 36.0);
+    }
+
+    /// Of a walk that keeps the part ρ of its place, (1 + ρ)/(1 − ρ) steps tell as much as one independent sample.
+    #[test]
+    fn steps_that_keep_a_part_of_the_place_count_for_less() {
+        let mut random = SmallRng::seed_from_u64(3);
+        for kept in [0.0_f64, 0.5, 0.9] {
+            let mut at = 0.0;
+            let mut walk = || {
+                at = kept * at + (1.0 - kept * kept).sqrt() * random.sample::<f64, _>(StandardNormal);
+                at
+            };
+            let walks: Vec<Vec<f64>> = (0..4).map(|_| (0..5000).map(|_| walk()).collect()).collect();
+            let said = described(known(), &walks);
+            let exact = 20_000.0 * (1.0 - kept) / (1.0 + kept);
+            assert!((said.effective / exact - 1.0).abs() < 0.2, "{kept}: {} {exact}", said.effective);
+            assert!((said.disagreement - 1.0).abs() < 0.01 && (said.inside - 0.9).abs() < 0.03, "{kept}: {said:?}");
+        }
+    }
 }

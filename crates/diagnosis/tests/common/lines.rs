@@ -71,6 +71,13 @@ impl Lines {
         Self { constants, precision: together.try_inverse(), ..Self::new(rows) }
     }
 
+    /// The same where every record has constants of its own.
+    pub(crate) fn with_own_constants(rows: usize) -> Self {
+        let mut lines = Self::with_constants(rows, 0.0);
+        lines.constants.iter_mut().for_each(|constant| constant.local = true);
+        lines
+    }
+
     /// The same where the first mechanism acts by the square of its size: a size and its opposite are one.
     pub(crate) fn squared(rows: usize) -> Self {
         let mut lines = Self { power: 2, ..Self::new(rows) };

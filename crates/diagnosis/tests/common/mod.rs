@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "each test binary uses its part")]
 
 pub(crate) mod lines;
+pub(crate) mod valleys;
 
 /// Standard normal numbers with a fixed seed: xorshift (Marsaglia 2003), Box and Muller.
 pub(crate) fn normal(seed: u64) -> impl FnMut() -> f64 {

@@ -1,0 +1,92 @@
+//! Fits and samples of a mechanism whose misfit has several minima, each of a known place, width and depth.
+
+use crate::common::valleys::Valleys;
+use diagnosis::{Samples, sampled};
+
+/// Depth of the first valley's ground: −ln p there.
+const GROUND: f64 = 8.0;
+
+/// Two parameters, of whose sum the record knows much, and valleys of their difference, the second one lower by `gain`; an offset makes up for what the
+/// difference adds to all rows.
+fn of_a_difference(gain: f64) -> Valleys {
+    let valleys = move |p: &[f64]| {
+        let (sum, difference) = (p[0] + p[1], p[0] - p[1]);
+        let (middle, ground) = if difference < 1.5 { (0.0, GROUND) } else { (2.0, GROUND - gain) };
+        let of_all = 3.0 * difference;
+        // of two opposites the offset takes nothing
+        let ground = ground.sqrt();
+        [20.0 * sum, 100.0 * (difference - middle), ground, -ground, 0.0, 0.0, 0.0, 0.0].map(|row| row + of_all)
+    };
+    Valleys::new(&[&[0.0, 0.0]], &[1.0], valleys).with_any_offset()
+}
+
+/// The valley cannot be left by one of the two alone, nor without the offset that goes with them.
+#[test]
+fn a_better_minimum_is_found_where_one_parameter_moves_against_another_and_the_rest_follows() {
+    let (here, there) = (of_a_difference(-1.0).fitted(), of_a_difference(0.6).fitted());
+    let places = |fit: &diagnosis::Fit| fit.active[0].values.clone();
+    assert!(places(&here).iter().all(|p| p.abs() < 0.01), "{:?}", places(&here));
+    let [a, b] = places(&there)[..] else { panic!("two parameters") };
+    assert!(
+        (a - 1.0).abs() < 0.01 && (b + 1.0).abs() < 0.01 && (there.offsets[0][0] + 6.0).abs() < 1.0,
+        "{a} {b} {:?}",
+        there.offsets
+    );
+    // the valleys are alike but for their grounds
+    let gained = there.log_evidence - here.log_evidence;
+    assert!((gained - 0.6).abs() < 0.01, "{gained}");
+}
+
+/// Less than a third of a unit of ln p is worth no round of the search.
+#[test]
+fn a_minimum_that_is_hardly_better_is_not_gone_to() {
+    let fit = of_a_difference(0.15).fitted();
+    assert!(fit.active[0].values.iter().all(|p| p.abs() < 0.01), "{:?}", fit.active);
+}
+
+/// Valleys about 0 and 2, of so many standard deviations' distance and with these grounds.
+fn apart(distance: f64, grounds: [f64; 2]) -> Valleys {
+    Valleys::new(&[&[0.0], &[2.0]], &[], move |p| {
+        let (middle, ground) = if p[0] < 1.0 { (0.0, grounds[0]) } else { (2.0, grounds[1]) };
+        [distance / 2.0 * (p[0] - middle), (2.0 * ground).sqrt(), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+    })
+}
+
+fn samples(model: &Valleys, steps: usize, seed: u64) -> Samples {
+    sampled(model, &[0], &[Valleys::record()], &model.fitted(), steps, seed).expect("samples")
+}
+
+#[test]
+fn minima_are_two_beyond_a_standard_deviation_and_where_both_hold_something() {
+    for (distance, grounds, minima) in [
+        (0.8, [1.0, 1.0], 1),
+        (1.2, [1.0, 1.0], 2),
+        (30.0, [0.1, 14.0], 2),
+        (30.0, [0.1, 16.0], 1),
+        (30.0, [50.0, 64.0], 2),
+        (30.0, [66.0, 50.0], 1),
+    ] {
+        assert_eq!(samples(&apart(distance, grounds), 20, 1).minima, minima, "{distance} {grounds:?}");
+    }
+}
+
+/// Walks that begin within the posterior might agree without having been anywhere.
+#[test]
+fn walks_begin_farther_from_the_minimum_than_the_posterior_reaches() {
+    const STEPS: usize = 20;
+    const WALKS: usize = 4;
+    let model = Valleys::new(&[&[0.0]], &[], |p| [p[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let fit = model.fitted();
+    let mut begun = Vec::new();
+    for seed in 0..100 {
+        model.asked.take();
+        sampled(&model, &[0], &[Valleys::record()], &fit, STEPS, seed).expect("samples");
+        // the last to be asked for are the walks' places, of each its beginning and its steps
+        let asked = model.asked.take();
+        begun.extend(asked[asked.len() - WALKS * (1 + STEPS)..].iter().step_by(1 + STEPS).copied());
+    }
+    // the posterior's standard deviation is 1
+    let spread = (begun.iter().map(|x| x * x).sum::<f64>() / begun.len() as f64).sqrt();
+    // of 400 beginnings: known to 4 %
+    assert!((spread - 1.5).abs() < 0.2, "{spread}");
+}
