@@ -41,7 +41,7 @@ fn lines(name: &str, y: &str, x: &str, series: &[Series]) -> Markup {
     // a single point marks one of another series, a guide has no data
     let mut rest: Vec<&Series> = series.iter().filter(|s| s.count > 1 && s.style != Style::Guide).collect();
     while let Some(first) = rest.first() {
-        let alike = |s: &&Series| s.count == first.count && (0..s.count).all(|n| (s.at)(n).0 == (first.at)(n).0);
+        let alike = |s: &&Series| s.count == first.count && (0..s.count).all(|n| (s.at)(n).0.total_cmp(&(first.at)(n).0).is_eq());
         let (group, others): (Vec<&Series>, Vec<&Series>) = rest.iter().partition(|s| alike(s));
         let mut head = vec![x.to_owned()];
         for (n, s) in group.iter().enumerate() {

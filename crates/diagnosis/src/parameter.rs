@@ -61,6 +61,16 @@ impl Prior {
         }
     }
 
+    /// Whether a value is possible under it.
+    pub(crate) fn allows(&self, value: f64) -> bool {
+        value.is_finite()
+            && match *self {
+                Prior::Normal { .. } | Prior::Size { .. } => true,
+                Prior::LogNormal { .. } => value > 0.0,
+                Prior::Uniform { low, high } => (low..=high).contains(&value),
+            }
+    }
+
     /// The value at u.
     pub fn value(&self, u: f64) -> f64 {
         let u = u.clamp(-MOST, MOST);

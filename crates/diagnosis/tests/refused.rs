@@ -117,7 +117,7 @@ fn a_right_model_is_not_refused() {
     for sd in [0.0, f64::INFINITY] {
         let mut model = Reading::new();
         model.channels[0].offset.1 = sd;
-        model.mechanisms.push(Omission { weight: 0.0, ..model.mechanisms[0].clone() });
+        model.mechanisms.push(Omission { id: "creep".into(), weight: 0.0, ..model.mechanisms[0].clone() });
         assert!(diagnose(&model, &[0], &[observed()], &Settings::default(), &|_| ()).is_ok());
     }
 }
@@ -171,6 +171,10 @@ fn an_observation_of_another_shape_or_without_a_value_is_refused() {
     assert_eq!(of(&|o| o.channels[0].push(0.0)), long);
     let nothing = "record 0: no channel has a value, so that there is nothing to compare; leave the record out";
     assert_eq!(of(&|o| o.channels[0].fill(f64::NAN)), nothing);
+    for (value, said) in [(f64::INFINITY, "inf"), (-1e308, &format!("{}", -1e308))] {
+        let huge = format!("record 0: channel `flow` is {said} in row 7; give a size below 1e100, NaN where there is none");
+        assert_eq!(of(&|o| o.channels[0][7] = value), huge);
+    }
     assert!(of(&|o| o.time[5] = f64::NAN).starts_with("instant 5, NaN s, "));
 }
 
@@ -188,6 +192,19 @@ fn a_mechanism_with_wrong_starts_weight_or_constant_is_refused() {
         let expected = format!("slip: a start has {found}, the mechanism has 1 parameter; give one value for each");
         assert_eq!(refused(|m| m.mechanisms[0].starts.push(start.clone())), expected);
     }
+    for start in [f64::NAN, f64::INFINITY] {
+        let expected = format!("slip: slope: a start of {start} is outside its prior; give one inside");
+        assert_eq!(refused(|m| m.mechanisms[0].starts.push(vec![start])), expected);
+    }
+    for (prior, start) in [(Prior::LogNormal { median: 1.0, spread: 1.0 }, -30.0), (Prior::Uniform { low: 0.0, high: 1.0 }, 1.5)]
+    {
+        let change = |m: &mut Reading| {
+            m.mechanisms[0].parameters[0].prior = prior;
+            m.mechanisms[0].starts = vec![vec![start]];
+        };
+        assert_eq!(refused(change), format!("slip: slope: a start of {start} is outside its prior; give one inside"));
+    }
+    assert_eq!(refused(|m| m.mechanisms.push(m.mechanisms[0].clone())), "slip: two mechanisms have this id; give each its own");
     for weight in [-1.0, f64::NAN, f64::INFINITY] {
         let expected = format!("slip: its weight is {weight}; it has to be finite and at least 0");
         assert_eq!(refused(|m| m.mechanisms[0].weight = weight), expected);

@@ -178,18 +178,18 @@ impl Progress {
         self.how == How::Silent
     }
 
+    /// Says warnings and notes, of which `quiet` leaves the warnings.
     pub(crate) fn tell(&self, notes: &[Note]) {
-        notes.iter().for_each(|note| self.say(&note.line()));
+        notes.iter().filter(|note| note.is_warning() || !self.is_silent()).for_each(|note| self.say(&note.line()));
     }
 
     pub(crate) fn note(&self, text: &str) {
-        self.say(&format!("note: {text}"));
+        if !self.is_silent() {
+            self.say(&format!("note: {text}"));
+        }
     }
 
     fn say(&self, line: &str) {
-        if self.is_silent() {
-            return;
-        }
         // nobody is left to tell if standard error is closed
         let say = || drop(writeln!(std::io::stderr().lock(), "{}", files::shown(line)));
         match lock(&self.bar).as_ref() {

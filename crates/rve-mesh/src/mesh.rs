@@ -82,6 +82,9 @@ impl Grid {
     }
 }
 
+/// More nodes than any computer solves for.
+const MOST_NODES: f64 = 1e8;
+
 fn check(cell: &LatticeCell, resolution: &Resolution, lattice: &[f64]) -> Result<(), Error> {
     let bad = |text: String| Err(Error::Resolution(text));
     let phases = cell.radii().len() + 1;
@@ -94,6 +97,14 @@ fn check(cell: &LatticeCell, resolution: &Resolution, lattice: &[f64]) -> Result
     let ends = lattice.len() >= 2 && lattice[0] == -1.0 && lattice[lattice.len() - 1] == 1.0;
     if !ends || lattice.windows(2).any(|w| w[0].partial_cmp(&w[1]) != Some(std::cmp::Ordering::Less)) {
         return bad(format!("the element lattice must increase from -1 to 1, it is {lattice:?}"));
+    }
+    let across: f64 = resolution.across.iter().map(|n| *n as f64).sum();
+    let order = (lattice.len() - 1) as f64;
+    let nodes = (2 * cell.packing().sides()) as f64 * resolution.sectors as f64 * across * order * order;
+    if nodes > MOST_NODES {
+        return bad(format!(
+            "a whole cell of {nodes:.1e} nodes is too large; needs fewer sectors or elements across, {MOST_NODES:e} at most"
+        ));
     }
     Ok(())
 }
@@ -183,7 +194,7 @@ fn symmetry(packing: Packing, grid: &Grid, extent: Extent) -> Symmetry {
 /// ring's edge lies on its circle to rounding.
 ///
 /// # Errors
-/// [`Error::Resolution`] if a number of divisions, the grading or the lattice is out of range.
+/// [`Error::Resolution`] if a number of divisions, the grading or the lattice is out of range, or the whole cell would have more than 10⁸ nodes.
 pub fn mesh(cell: &LatticeCell, extent: Extent, resolution: &Resolution, lattice: &[f64]) -> Result<CellMesh, Error> {
     check(cell, resolution, lattice)?;
     let order = lattice.len() - 1;

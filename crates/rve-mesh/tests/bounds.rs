@@ -33,6 +33,9 @@ fn bounds_resolutions_and_lattices_out_of_range() {
     assert!(mesh(&cell, Extent::Whole, &good, &quadratic).is_ok());
     for bad in [
         Resolution { sectors: 0, ..good.clone() },
+        Resolution { sectors: usize::MAX, ..good.clone() },
+        Resolution { sectors: 1_000_000_000, ..good.clone() },
+        Resolution { across: vec![usize::MAX; 3], ..good.clone() },
         Resolution { grading: 0.1, ..good.clone() },
         Resolution { grading: 6.0, ..good.clone() },
         Resolution { grading: f64::NAN, ..good.clone() },

@@ -147,6 +147,11 @@ fn bounds_arrangements_and_displacements_of_nothing_are_refused() {
     let regular = Arrangement::hexagonal(1.0, 2, 2).unwrap();
     let refused = [
         (Arrangement::hexagonal(1.0, 0, 0), "columns = 0, but it must be at least 1"),
+        (Arrangement::hexagonal(1.0, 1001, 1000), "columns times rows = 1001000, but it must be a million at most"),
+        (
+            Arrangement::square(1.0, 1 << 33, 1 << 33),
+            "columns times rows = 73786976294838210000, but it must be a million at most",
+        ),
         (Arrangement::square(1.0, 1, 0), "rows = 0, but it must be at least 1"),
         (Arrangement::square(f64::NAN, 1, 1), "pitch = NaN, but it must be finite and greater than 0 m"),
         (displace(&regular, 0.4, f64::NAN, 0.01, 1), "most = NaN, but it must be finite and 0 m or more"),

@@ -2,6 +2,9 @@
 
 use crate::{Active, Channel, Error, ForwardModel, Observation, Omission};
 
+/// No observed value is of this size.
+const HUGE: f64 = 1e100;
+
 /// Response `[channel][row]`.
 pub(crate) type Response = Vec<Vec<f64>>;
 
@@ -44,16 +47,20 @@ fn nuisance_problem(model: &dyn ForwardModel) -> Option<String> {
 fn library_problem(model: &dyn ForwardModel) -> Option<String> {
     let library = model.mechanisms();
     let own = library.iter().find_map(|mechanism| Some(format!("{}: {}", mechanism.id, mechanism_problem(mechanism)?)));
-    own.or_else(|| library.iter().enumerate().find_map(|(number, mechanism)| stand_in_problem(model, number, mechanism))).or_else(
-        || {
+    let twice = || {
+        let again = library.iter().enumerate().find(|(n, one)| library[..*n].iter().any(|before| before.id == one.id))?.1;
+        Some(format!("{}: two mechanisms have this id; give each its own", again.id))
+    };
+    own.or_else(twice)
+        .or_else(|| library.iter().enumerate().find_map(|(number, mechanism)| stand_in_problem(model, number, mechanism)))
+        .or_else(|| {
             let weightless = |named: bool| {
                 let mut weights = library.iter().filter(|m| m.named == named).map(|m| m.weight).peekable();
                 weights.peek().is_some() && weights.all(|weight| weight == 0.0)
             };
             let kind = [(true, "with"), (false, "without")].into_iter().find(|(named, _)| weightless(*named))?.1;
             Some(format!("the mechanisms {kind} a name all have weight 0; give one of them a weight, or leave them out"))
-        },
-    )
+        })
 }
 
 fn mechanism_problem(mechanism: &Omission) -> Option<String> {
@@ -69,7 +76,11 @@ fn mechanism_problem(mechanism: &Omission) -> Option<String> {
         return Some(format!("a start has {found}, the mechanism has {needed}; give one value for each"));
     }
     let of = |parameter: &crate::Parameter| Some(format!("{}: {}", parameter.name, parameter.prior.problem()?));
-    mechanism.parameters.iter().find_map(of)
+    mechanism.parameters.iter().find_map(of).or_else(|| {
+        let each = mechanism.starts.iter().flat_map(|start| mechanism.parameters.iter().zip(start));
+        let (parameter, value) = each.into_iter().find(|(parameter, value)| !parameter.prior.allows(**value))?;
+        Some(format!("{}: a start of {value} is outside its prior; give one inside", parameter.name))
+    })
 }
 
 fn stand_in_problem(model: &dyn ForwardModel, number: usize, mechanism: &Omission) -> Option<String> {
@@ -83,7 +94,8 @@ fn stand_in_problem(model: &dyn ForwardModel, number: usize, mechanism: &Omissio
 }
 
 /// # Errors
-/// [`Error::Data`] if the observation has not one series for each channel, or not one value for each instant, or no value at all.
+/// [`Error::Data`] if the observation has not one series for each channel, or not one value for each instant, or no value at all, or one that is
+/// infinite.
 pub(crate) fn observed(model: &dyn ForwardModel, record: usize, observed: &Observation) -> Result<(), Error> {
     let (channels, instants) = (model.channels(), plural(observed.time.len(), "instant"));
     let refused = |problem: String| Err(Error::Data(format!("record {record}: {problem}")));
@@ -95,6 +107,16 @@ pub(crate) fn observed(model: &dyn ForwardModel, record: usize, observed: &Obser
     if let Some((channel, series)) = channels.iter().zip(&observed.channels).find(of_other_length) {
         let (name, found) = (&channel.name, plural(series.len(), "observed value"));
         return refused(format!("channel `{name}` has {found} at {instants}; give one for each, NaN where there is none"));
+    }
+    // a square has to be a number, too
+    let huge = |value: &f64| !value.is_nan() && value.abs() >= HUGE;
+    for (channel, series) in channels.iter().zip(&observed.channels) {
+        if let Some(row) = series.iter().position(huge) {
+            let (name, value) = (&channel.name, series[row]);
+            return refused(format!(
+                "channel `{name}` is {value} in row {row}; give a size below {HUGE:e}, NaN where there is none"
+            ));
+        }
     }
     if observed.channels.iter().flatten().all(|value| value.is_nan()) {
         return refused("no channel has a value, so that there is nothing to compare; leave the record out".into());

@@ -11,7 +11,7 @@ use super::mechanics::MechanicsFile;
 use super::mirror::{Mirror, mirrored, mirrored_choice, says_default};
 use super::quantity::{
     Conductivity, CurvaturePerK2, Density, DriftDegPerHPerK, ExpansionPerK, Index, LengthMm, ModulusGpa, ModulusMpa,
-    Photoelastic, Ratio, SpecificHeat, StrainRatio, TemperatureC,
+    Photoelastic, Ratio, SpecificHeat, StrainRatio, TemperatureC, ThermoOpticPerK,
 };
 use super::spool_file::{SensorFile, SpoolFile, SurroundingsFile};
 use super::tolerances::{self, CorrelationFile, TolerancesFile};
@@ -139,7 +139,7 @@ mirrored! {
         /// Refractive index n.
         refractive_index: Index = refractive_index,
         /// Thermo-optic coefficient dn/dT.
-        thermo_optic_per_k: ExpansionPerK = thermo_optic,
+        thermo_optic_per_k: ThermoOpticPerK = thermo_optic,
         /// Expansion of the glass.
         thermal_expansion_per_k: ExpansionPerK = thermal_expansion,
         /// Photoelastic constant.

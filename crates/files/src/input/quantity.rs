@@ -74,12 +74,14 @@ quantities! {
     PitchMm: 1e-3 to 50.0, "mm", "0.170", from_mm, to_mm;
     WallMm: 0.01 to 1e5, "mm", "2.0", from_mm, to_mm;
     LengthMm: 1e-3 to 1e5, "mm", "43.5", from_mm, to_mm;
+    MarginMm: 1e-3 to 1e5, "mm", "10.0", from_mm, to_mm;
     ExtraLengthMm: 0.0 to 1e5, "mm", "1.0", from_mm, to_mm;
     PositionMm: -1e5 to 1e5, "mm", "10.01", from_mm, to_mm;
     TailM: 0.0 to 1e5, "m", "0.5", identity, identity;
     ModulusMpa: 1e-6 to 2e6, "MPa", "70200.0 for silica", from_mpa, to_mpa;
     ModulusGpa: 1e-9 to 2e3, "GPa", "70.2 for silica", from_gpa, to_gpa;
     ExpansionPerK: -1e-2 to 1e-2, "1/K", "0.55e-6 for silica", identity, identity;
+    ThermoOpticPerK: -1e-2 to 1e-2, "1/K", "1.0e-5 for silica", identity, identity;
     // of solids, so that kW/(m K), g/cm3 and kJ/(kg K) lie outside. Least: silica aerogel, 0.012 W/(m K) (Fricke and Emmerling, Structure and Bonding 77,
     // 1992); melamine foam, 9 to 11 kg/m3 (BASF, Basotect); uranium, 116 J/(kg K) (CRC Handbook). Most: diamond of one isotope, 3320 W/(m K) (Anthony et
     // al., Phys. Rev. B 42, 1990); osmium, 22590 kg/m3; lithium, 3580 J/(kg K), and water in a gel, 4180

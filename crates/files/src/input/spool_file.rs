@@ -9,7 +9,7 @@ use super::InputError;
 use super::group::Group;
 use super::mirror::{Mirror, mirrored, says_default};
 use super::quantity::{
-    Conductivity, Density, ExpansionPerK, ExtraLengthMm, LagS, LengthMm, MediumConductivity, MediumDensity, MediumSpecificHeat,
+    Conductivity, Density, ExpansionPerK, ExtraLengthMm, LagS, MarginMm, MediumConductivity, MediumDensity, MediumSpecificHeat,
     ModulusGpa, PositionMm, SpecificHeat, WallMm,
 };
 use super::winding_file::SideFile;
@@ -22,7 +22,7 @@ pub(crate) struct SurroundingsFile {
     /// Still air, or another medium.
     pub(crate) medium: MediumFile,
     /// From the solids' bounding box to the chamber's wall.
-    pub(crate) margin_mm: LengthMm,
+    pub(crate) margin_mm: MarginMm,
 }
 
 /// A medium that conducts heat and carries no stress.

@@ -26,7 +26,7 @@ const TOGETHER: usize = 3;
 /// Hampel's test against three neighbours on each side, less the line of their median slope (Theil and Sen): a ramp hides no outlier, and a step, or a
 /// bend, is none. Up to three rows may be off together. What goes on with the line of one side alone is a corner.
 ///
-/// The first and the last row are judged by the five beside them, and have to be farther off; those next to them are not judged.
+/// The first two and the last two rows, and those beside a gap, are judged by the five next to them on their side, and have to be farther off.
 pub(super) fn judge(context: &Context, mask: &mut [bool]) -> Vec<Finding> {
     let before = mask.to_vec();
     let mut found = lone_values(context, mask).unwrap_or_default();
@@ -59,10 +59,13 @@ fn lone_values(context: &Context, mask: &mut [bool]) -> Option<Vec<(usize, f64)>
         found.iter().for_each(|(row, _)| mask[*row] = false);
     }
     let used: Vec<usize> = (0..time.len()).filter(|&row| mask[row]).collect();
-    let inwards: [Vec<usize>; 2] = [used.iter().take(ENDS).copied().collect(), used.iter().rev().take(ENDS).copied().collect()];
-    for (row, distance) in inwards.iter().filter_map(|rows| end(context, rows, noise)) {
-        mask[row] = false;
-        found.push((row, distance));
+    for run in used.chunk_by(|a, b| (time[*a] - time[*b]).abs() < NEAR * context.interval) {
+        for (row, distance) in
+            [run.to_vec(), run.iter().rev().copied().collect()].iter().flat_map(|inwards| end(context, inwards, noise))
+        {
+            mask[row] = false;
+            found.push((row, distance));
+        }
     }
     Some(found)
 }
@@ -118,18 +121,22 @@ fn lone(context: &Context, used: &[usize], n: usize, together: usize, noise: f64
     (same && distance.abs() > FAR * noise && alone && !is_corner()).then_some(distance.abs())
 }
 
-/// The first of some rows from an end inwards with its distance from the line of the others, if it is an outlier: a row that was cut, or a start.
-fn end(context: &Context, rows: &[usize], noise: f64) -> Option<(usize, f64)> {
-    let Context { time, values, interval, .. } = context;
-    let near = |pair: &[usize]| (time[pair[0]] - time[pair[1]]).abs() < NEAR * interval;
-    let (&row, others) = rows.split_first()?;
-    if rows.len() < ENDS || !rows.windows(2).all(near) {
-        return None;
-    }
-    let middle = extrapolated(context, others, row)?;
-    let change = others.windows(2).map(|m| (values[m[0]] - values[m[1]]).abs()).fold(0.0, f64::max);
-    let distance = (values[row] - middle).abs();
-    (distance > FAR_END[0] * noise && distance > FAR_END[1] * change).then_some((row, distance))
+/// The first of some rows from an end inwards, a row that was cut, or a start, or else the second if the first is not off with it: with its distance from
+/// the line of those beside it, if it is an outlier.
+fn end(context: &Context, inwards: &[usize], noise: f64) -> Option<(usize, f64)> {
+    let values = context.values;
+    let off = |rows: &[usize]| {
+        let (&row, others) = rows.get(..ENDS)?.split_first()?;
+        let change = others.windows(2).map(|m| (values[m[0]] - values[m[1]]).abs()).fold(0.0, f64::max);
+        let off = values[row] - extrapolated(context, others, row)?;
+        (off.abs() > FAR_END[0] * noise && off.abs() > FAR_END[1] * change).then_some((row, off))
+    };
+    let second = || {
+        let (row, off) = off(inwards.get(1..)?)?;
+        let beside = (values[row] - values[inwards[0]]) * off.signum();
+        (beside > LONE[0] * off.abs()).then_some((row, off))
+    };
+    off(inwards).or_else(second).map(|(row, off)| (row, off.abs()))
 }
 
 /// Value in a row on the line of some rows: that of their median slope through their median.

@@ -13,11 +13,13 @@ pub struct Arrangement {
     pub centres: Vec<[f64; 2]>,
 }
 
+const MOST_FIBRES: f64 = 1e6;
+
 impl Arrangement {
     /// `columns` × `rows` fibres, at least one of each, at `pitch` \[m\], > 0, each row by half a pitch beyond the one below it.
     ///
     /// # Errors
-    /// [`LayoutError::Range`] names the number that is 0, or the pitch that is no length.
+    /// [`LayoutError::Range`] names the number that is 0, the product of both that exceeds a million, or the pitch that is no length.
     pub fn hexagonal(pitch: f64, columns: usize, rows: usize) -> Result<Self, LayoutError> {
         Self::rows(pitch, columns, rows, [pitch / 2.0, pitch * 0.75_f64.sqrt()])
     }
@@ -35,6 +37,8 @@ impl Arrangement {
         for (field, count) in [("columns", columns), ("rows", rows)] {
             check(field, count as f64, count > 0, "at least 1")?;
         }
+        let fibres = columns as f64 * rows as f64;
+        check("columns times rows", fibres, fibres <= MOST_FIBRES, "a million at most")?;
         let centre = |k: usize| {
             let (row, column) = ((k / columns) as f64, (k % columns) as f64);
             [column * pitch + row * step[0], row * step[1]]
