@@ -15,3 +15,4 @@ mod separation;
 mod spectrum;
 mod starts;
 mod toy;
+mod whitened;
