@@ -409,6 +409,9 @@ mod tests {
             assert!((amplitude + 12.0).abs() < 1e-9, "{amplitude}");
             assert!((gain - exact).abs() < 0.02, "{free} {scale}: {gain} and {exact}");
         }
+        // what does nothing of its own gains nothing, whatever rounding leaves of it
+        let (nothing, _) = gain_of(1e-24, 1e-9, Prior::Size { scale: 3.0 });
+        assert!(nothing.abs() < 1e-9, "{nothing}");
         // a small one is as if its prior were normal
         let near = [Prior::Size { scale: 3.0 }, Prior::Normal { mean: 0.0, sd: 3.0 }].map(|prior| gain_of(2.0, 1.5, prior));
         assert_eq!(near[0], near[1]);

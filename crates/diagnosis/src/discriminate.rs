@@ -90,9 +90,6 @@ pub fn separation(
     rivals: &[Hypothesis],
 ) -> Result<Separation, Error> {
     let (records, channels) = (plan.records, model.channels());
-    if records.is_empty() || records.len() != plan.instants.len() {
-        return Err(Error::Data(format!("{} records have {} series of instants", records.len(), plan.instants.len())));
-    }
     if plan.noise.is_some_and(|noise| noise.len() != channels.len()) {
         return Err(Error::Data(format!("give a noise model for each of the {} channels", channels.len())));
     }

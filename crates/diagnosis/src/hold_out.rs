@@ -336,6 +336,30 @@ mod tests {
     }
 
     #[test]
+    fn a_likelier_prediction_is_better_in_another_channel_and_as_good_in_its_own() {
+        // errors of two channels, and how likely the record is
+        let of = |errors: [f64; 2], log_score: f64| HeldOut {
+            prediction: Vec::new(),
+            rmse: errors.to_vec(),
+            noise_floor: vec![1.0; 2],
+            of_minutes: errors.to_vec(),
+            quiet: vec![1.0; 2],
+            log_score,
+        };
+        // the units of the channels do not matter
+        for unit in [0.1, 1.0, 10.0] {
+            let other = of([2.0 * unit, 2.0 * unit], -100.0);
+            let likelier = |own: f64, another: f64, by: f64| {
+                of([2.0 * unit * own, 2.0 * unit * another], -100.0 + by).is_likelier_than(&other, 0)
+            };
+            assert!(likelier(1.0, 0.9, 6.0) && likelier(1.005, 0.9, 6.0));
+            assert!(!likelier(1.02, 0.9, 6.0), "its own channel is worse");
+            assert!(!likelier(1.0, 0.97, 6.0) && !likelier(0.5, 1.0, 6.0), "no other channel is better");
+            assert!(!likelier(1.0, 0.9, 4.0), "chance is not excluded");
+        }
+    }
+
+    #[test]
     fn the_density_is_that_of_the_covariance_with_what_is_open() {
         let columns = DMatrix::from_row_slice(3, 2, &[1.0_f64, 0.2, -0.5, 2.0, 0.3, 0.1]);
         let left = DVector::from_vec(vec![0.4_f64, -1.0, 2.0]);

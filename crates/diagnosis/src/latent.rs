@@ -38,7 +38,7 @@ impl MemberResolution {
         self.resolved.iter().sum()
     }
 
-    /// Whether members can be located: at least half of some member's amplitude is the records' own.
+    /// Whether members can be located: more than half of some member's amplitude is the records' own.
     pub fn locatable(&self) -> bool {
         self.resolved.iter().any(|r| *r > 0.5)
     }

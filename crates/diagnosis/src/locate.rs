@@ -148,7 +148,7 @@ impl Fit {
             cell.1 += self.residuals[record][channel][row];
             cell.2 += 1;
         }
-        let z = |cell: &(f64, f64, usize)| if cell.2 > 0 { cell.0 / (cell.2 as f64).sqrt() } else { 0.0 };
+        let z = |cell: &(f64, f64, usize)| cell.0 / (cell.2 as f64).sqrt();
         let enough: Vec<usize> = (0..cells.len()).filter(|k| cells[*k].2 >= FEWEST).collect();
         let normal = Normal::standard();
         let p: Vec<f64> = enough.iter().map(|&k| 2.0 * normal.sf(z(&cells[k]).abs())).collect();

@@ -3,7 +3,7 @@
 use crate::common::lines::{Lines, WHITE, alone};
 use diagnosis::{
     Active, Breadth, Channel, Composed, Earlier, Fit, ForwardModel, Hypothesis, Nuisance, Observation, Omission, Parameter,
-    Prior, Settings, State, compose, compose_within, fitted, in_place_of, prove, proven,
+    Prior, Settings, State, compose, compose_within, diagnose, fitted, gained_by_noise_of, in_place_of, prove, proven,
 };
 use rand::SeedableRng;
 use rand::rngs::SmallRng;
@@ -126,6 +126,34 @@ fn of_noise_nothing_is_composed() {
     }
 }
 
+/// A fit under a drift that there is not, and the drift that there is.
+fn misled(seed: u64) -> (Lines, [Observation; 1], Fit) {
+    let (lines, observed, _) = record(0.0, seed);
+    let observed = [observed];
+    let drifting = Lines::new(ROWS).starting_at(1.0).with_drift(WHITE);
+    let fit = fitted(&drifting, &[0], &observed, &[Hypothesis::NOMINAL]).expect("a fit");
+    (lines, observed, fit)
+}
+
+#[test]
+fn a_likelier_noise_is_no_gain_of_a_law() {
+    let (lines, observed, misled) = misled(3);
+    let nothing = fitted(&lines, &[0], &observed, &[Hypothesis::NOMINAL]).expect("a fit");
+    assert!(nothing.log_evidence > misled.log_evidence + 10.0, "{} {}", nothing.log_evidence, misled.log_evidence);
+    assert!(compose(&lines, 0..2, &[0], &observed, &misled, &|_| ()).expect("composed").is_none());
+}
+
+#[test]
+fn a_likelier_noise_of_another_fit_is_a_gain_of_its_own() {
+    let (lines, observed, misled) = misled(3);
+    let nothing = fitted(&lines, &[0], &observed, &[Hypothesis::NOMINAL]).expect("a fit");
+    let missing = nothing.log_evidence - misled.log_evidence;
+    let mut candidate = diagnose(&lines, &[0], &observed, &Settings::default(), &|_| ()).expect("a diagnosis").best().clone();
+    (candidate.fit, candidate.rival) = (misled, None);
+    let gained = gained_by_noise_of(&lines, &[0], &observed, &candidate, &nothing).expect("a fit");
+    assert!((gained - missing).abs() < 0.05, "{gained} and {missing}");
+}
+
 /// Laws of one's own in the noise of [`Lines`], each a function of its values and of the place in the record, from 0 to 1.
 struct Laws {
     lines: Lines,
@@ -215,6 +243,69 @@ fn a_law_that_others_make_superfluous_is_dropped() {
     let mut weighed = laws(Earlier::Weighed);
     weighed.sort_unstable();
     assert_eq!(weighed, [1, 2]);
+}
+
+/// Two laws are needed, in turn: no more are composed than were asked for.
+#[test]
+fn no_more_laws_are_composed_than_may_be_added_up() {
+    let model = Laws::sum();
+    let truth = [1, 2].map(|mechanism| Active { mechanism, values: vec![2.0], choice: None });
+    let observed = [model.record(&truth, 8)];
+    let nothing = fitted(&model, &[0], &observed, &[Hypothesis::NOMINAL]).expect("a fit");
+    for terms in [1, 2] {
+        let breadth = Breadth { terms, ..Breadth::default() };
+        let found = compose_within(&model, 1..3, &[0], &observed, &nothing, breadth, &|_| ()).expect("composed").expect("laws");
+        assert_eq!((found.laws, found.steps.len()), (terms, terms));
+    }
+}
+
+/// Mechanisms at work together.
+fn together(mechanisms: &[usize]) -> Hypothesis {
+    Hypothesis { mechanisms: mechanisms.iter().map(|law| (*law, None)).collect(), constants_free: true }
+}
+
+/// Weight of a law beside others of weight 1, so many, where its choice costs so much.
+fn weight(cost: f64, others: f64) -> f64 {
+    others / cost.exp_m1()
+}
+
+/// The ripple of the sum is in the record, too, but little of it: the sum is worth more than e³ beside the other two laws, or not, by its prior.
+#[test]
+fn an_earlier_law_stays_where_it_gains_more_than_it_costs() {
+    let mut model = Laws::sum();
+    let truth = [(0, 0.4), (1, 1.6), (2, 1.6)].map(|(mechanism, size)| Active { mechanism, values: vec![size], choice: None });
+    let observed = [model.record(&truth, 8)];
+    let [nothing, without, all] =
+        [&[][..], &[1, 2], &[0, 1, 2]].map(|laws| fitted(&model, &[0], &observed, &[together(laws)]).expect("a fit"));
+    let gain = all.log_evidence - without.log_evidence;
+    assert!((9.0..20.0).contains(&gain), "{gain}");
+    for (spare, kept) in [(0.5, true), (-0.5, false)] {
+        model.laws[0].weight = weight(gain - 3.0 - spare, 2.0);
+        let breadth = Breadth { terms: 3, earlier: Earlier::Weighed, ..Breadth::default() };
+        let found = compose_within(&model, 0..3, &[0], &observed, &nothing, breadth, &|_| ()).expect("composed").expect("laws");
+        assert_eq!(found.steps[0].hypothesis.mechanisms, [(0, None)], "the sum comes first");
+        let numbers: Vec<usize> = found.fit.hypothesis.mechanisms.iter().map(|(law, _)| *law).collect();
+        assert_eq!((numbers.contains(&0), numbers.len()), (kept, if kept { 3 } else { 2 }), "{spare}: {numbers:?}");
+    }
+}
+
+/// A wave explains more than a ripple: whether it is taken is a matter of what was thought of both beforehand.
+#[test]
+fn a_law_that_explains_more_is_taken_where_the_choice_does_not_cost_as_much() {
+    let mut model = Laws::sum();
+    let truth = [(1, 0.3), (2, 0.2)].map(|(mechanism, size)| Active { mechanism, values: vec![size], choice: None });
+    let observed = [model.record(&truth, 8)];
+    let [nothing, wave, ripple] =
+        [&[][..], &[1], &[2]].map(|laws| fitted(&model, &[0], &observed, &[together(laws)]).expect("a fit"));
+    let more = wave.log_evidence - ripple.log_evidence;
+    assert!(more > 3.0, "{more}");
+    for (spare, taken) in [(1.0, 1), (-1.0, 2)] {
+        // the difference of the two costs
+        model.laws[1].weight = (spare - more).exp();
+        let breadth = Breadth { terms: 1, ..Breadth::default() };
+        let found = compose_within(&model, 1..3, &[0], &observed, &nothing, breadth, &|_| ()).expect("composed").expect("a law");
+        assert_eq!(found.fit.hypothesis.mechanisms, [(taken, None)], "{spare}");
+    }
 }
 
 #[test]

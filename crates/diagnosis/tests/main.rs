@@ -16,3 +16,4 @@ mod spectrum;
 mod starts;
 mod toy;
 mod valleys;
+mod whitened;

@@ -38,11 +38,16 @@ fn mean(values: &[f64]) -> f64 {
 fn a_late_copy_is_coherent_and_other_noise_is_not() {
     let state = State { level: white(1), rate: white(2) };
     let late: Vec<f64> = (0..ROWS).map(|k| 3.0 * state.level[k.saturating_sub(2)]).collect();
+    let later = spectra(&state, &late, instants(true).iter().map(|t| t + 1e6).collect());
     let spectra = spectra(&state, &late, instants(true));
     // from two cycles in a segment of 400 rows to half of what its rows resolve
     let span = 399.0 * 30.0;
     let ends = [spectra.first().expect("a spectrum").frequency, spectra.last().expect("a spectrum").frequency];
     assert!((ends[0] * span - 2.0).abs() < 1e-9 && (ends[1] * span - 100.0).abs() < 1e-9, "{ends:?}");
+    // wherever the clock starts
+    for (s, later) in spectra.iter().zip(&later) {
+        assert!((later.frequency / s.frequency - 1.0).abs() < 1e-9 && (later.coherence[0] - s.coherence[0]).abs() < 1e-6);
+    }
     assert!(of(&spectra, 0).iter().all(|c| (0.95..=1.0 + 1e-12).contains(c)), "{spectra:?}");
     // noise of nine segments, half overlapping: a ninth and little more, and above the threshold once in twenty
     for k in [1, 2] {
@@ -77,9 +82,11 @@ fn noise_exceeds_the_threshold_once_in_twenty() {
 
 #[test]
 fn a_short_record_has_no_spectrum() {
-    let rows = 300;
-    let lines = Lines::new(rows);
-    let observed = lines.observed(&white(5)[..rows]);
-    let fit = fitted(&lines, &[0], std::slice::from_ref(&observed), &[Hypothesis::NOMINAL]).expect("a fit");
-    assert!(fit.in_frequency(&lines, (0, 0), 0, &observed).is_empty());
+    // a segment is a fifth of a record, and has 64 rows or more
+    for (rows, frequencies) in [(300, 0), (319, 0), (320, diagnosis::FREQUENCIES)] {
+        let lines = Lines::new(rows);
+        let observed = lines.observed(&white(5)[..rows]);
+        let fit = fitted(&lines, &[0], std::slice::from_ref(&observed), &[Hypothesis::NOMINAL]).expect("a fit");
+        assert_eq!(fit.in_frequency(&lines, (0, 0), 0, &observed).len(), frequencies, "{rows}");
+    }
 }

@@ -19,6 +19,8 @@ pub(crate) struct Bath {
     time: Vec<f64>,
     /// A record in which nothing can act at a stage.
     lacking: Option<(usize, &'static str)>,
+    /// Whether one of its members does nothing.
+    idle: bool,
 }
 
 fn mechanism(id: &str, stage: &str, parameters: Vec<Parameter>, start: Vec<f64>) -> Omission {
@@ -54,6 +56,7 @@ impl Bath {
             states: vec![course(2.7), course(1.9)],
             time,
             lacking: None,
+            idle: false,
         }
     }
 
@@ -121,11 +124,13 @@ impl ForwardModel for Bath {
         Ok(stages)
     }
 
-    /// Two that do the same, and one of its own.
+    /// Two that do the same, one of its own, and one that does nothing where there is such a one.
     fn members(&self, record: usize) -> Result<Option<Latent>, diagnosis::Failure> {
         let State { level, rate } = &self.states[record];
         let bend: Vec<f64> = level.iter().zip(rate).map(|(l, r)| l * r).collect();
-        Ok(Some(Latent { stage: "optics".to_owned(), functions: vec![vec![bend.clone()], vec![bend], vec![level.clone()]] }))
+        let idle = self.idle.then(|| vec![0.0; ROWS]);
+        let functions = [bend.clone(), bend, level.clone()].into_iter().chain(idle).map(|series| vec![series]).collect();
+        Ok(Some(Latent { stage: "optics".to_owned(), functions }))
     }
 }
 
@@ -330,7 +335,7 @@ fn a_stage_that_one_record_lacks_is_left_out() {
 
 #[test]
 fn members_that_do_the_same_are_not_told_apart() {
-    let bath = Bath::new();
+    let bath = Bath { idle: true, ..Bath::new() };
     let diagnosis = run(&bath, &bath.truth(0, Some((1, 1.5))), 37);
     let resolution = diagnosis.mismatch.resolution(&bath, &[0], 2.0).expect("a resolution").expect("members");
     // of the twins each is half resolved, and they share what is there; the third is resolved, and is not at work
@@ -338,6 +343,11 @@ fn members_that_do_the_same_are_not_told_apart() {
     assert!((resolution.values[0] + resolution.values[1] - 1.5).abs() < 0.2, "{resolution:?}");
     assert!(resolution.resolved[2] > 0.9 && resolution.values[2].abs() < 3.0 * resolution.errors[2], "{resolution:?}");
     assert!((resolution.combinations() - 2.0).abs() < 0.1 && resolution.locatable());
+    // of what does nothing the prior is all that is known
+    assert_eq!([&resolution.values, &resolution.errors, &resolution.resolved].map(|of| of[3]), [0.0, 2.0, 0.0]);
+    // members that are known beforehand are not the record's to locate
+    let known = diagnosis.mismatch.resolution(&bath, &[0], 1e-5).expect("a resolution").expect("members");
+    assert!(known.combinations() < 0.01 && !known.locatable(), "{known:?}");
 }
 
 #[test]

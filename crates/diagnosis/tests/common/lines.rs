@@ -96,6 +96,12 @@ impl Lines {
         self
     }
 
+    /// The same where the noise is known to drift so much.
+    pub(crate) fn with_drift(mut self, drift: f64) -> Self {
+        self.channels[0].noise.drift.0 = drift;
+        self
+    }
+
     /// The same in another state.
     pub(crate) fn in_state(self, state: State) -> Self {
         Self { state, ..self }
