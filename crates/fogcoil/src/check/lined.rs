@@ -13,12 +13,11 @@ const MOST_LINES: usize = 8;
 /// Steps of the channel's last digit that a line exceeds: what rounding makes of an even drift is a third of one.
 const ROUNDED: f64 = 0.5;
 
-/// Parts of a record in which a line is compared with that of the whole, and the share of its amplitude by which it may differ there.
+/// Parts of a record, and of the temperature's fastest pace, in which a line is compared with that of the whole, and the share of its amplitude by which it may differ there.
 const PARTS: f64 = 4.0;
 const ALIKE: f64 = 0.5;
-/// Least change \[K\] of a ramp, and share of all that a course goes which is its change, from which it is nothing but a ramp.
+/// Range \[K\] of a course from which it may make a line.
 const FEWEST_KELVIN: f64 = 1.0;
-const ONE_WAY: f64 = 0.9;
 
 /// A line of the rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,7 +26,7 @@ pub struct RateLine {
     pub line: Line,
     /// The temperature that has it, too.
     pub of: Option<&'static str>,
-    /// Whether it is the same in every quarter of the record, and where the temperature falls, rests and rises.
+    /// Whether it is the same in every quarter of the record, and where the temperature falls, rests and rises; where it never rests this is not told.
     pub is_steady: bool,
 }
 
@@ -58,21 +57,10 @@ pub(super) fn of(
     course: Option<&[f64]>,
 ) -> Vec<RateLine> {
     let has = |line: &Line| temperature.filter(|(_, values)| has_line(time, values, line.period)).map(|(name, _)| name);
-    let is_ramp = course.is_some_and(is_ramp);
-    lines
-        .into_iter()
-        .map(|line| RateLine { line, of: has(&line), is_steady: !is_ramp && goes_on(&line, time, rest, course) })
-        .collect()
+    lines.into_iter().map(|line| RateLine { line, of: has(&line), is_steady: goes_on(&line, time, rest, course) }).collect()
 }
 
-/// Whether a course is one ramp, in which a ripple over temperature is a line over time.
-fn is_ramp(course: &[f64]) -> bool {
-    let travel: f64 = course.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
-    let net = course.last().zip(course.first()).map_or(0.0, |(last, first)| (last - first).abs());
-    net > FEWEST_KELVIN && net > ONE_WAY * travel
-}
-
-/// Whether a line is the same in every quarter of a series, of which `rest` is what it leaves, and where the temperature falls, rests and rises.
+/// Whether a line is the same in every quarter of a series, of which `rest` is what it leaves, and whatever the temperature does.
 fn goes_on(line: &Line, time: &[f64], rest: &[f64], course: Option<&[f64]>) -> bool {
     let (start, length) = (time[0], time[time.len() - 1] - time[0]);
     let quarter = |row: usize| (PARTS * (time[row] - start) / length).floor().min(PARTS - 1.0) as usize;
@@ -81,22 +69,33 @@ fn goes_on(line: &Line, time: &[f64], rest: &[f64], course: Option<&[f64]>) -> b
         left.is_some_and(|left| left < ALIKE * line.amplitude())
     };
     let used: Vec<usize> = (0..time.len()).filter(|row| rest[*row].is_finite()).collect();
-    let parts = (0..PARTS as usize).map(|n| used.iter().copied().filter(|row| quarter(*row) == n).collect::<Vec<_>>());
-    let paces = course.map_or_else(Vec::new, |course| by_pace(time, course, &used));
-    parts.chain(paces).all(|rows| goes_on(&rows))
+    let mut parts = (0..PARTS as usize).map(|n| used.iter().copied().filter(|row| quarter(*row) == n).collect::<Vec<_>>());
+    parts.all(|rows| goes_on(&rows))
+        && course.filter(|course| moves(course)).is_none_or(|course| {
+            let paces = by_pace(time, course, &used);
+            // where nothing rests a ripple over temperature may be a line: of one ramp, or of ramps to and fro
+            let told = |rows: &&Vec<usize>| rows.len() as f64 * 2.0 * PARTS > used.len() as f64;
+            told(&&paces[RESTS]) && paces.iter().filter(told).all(|rows| goes_on(rows))
+        })
 }
 
-/// The rows of those in use in which a temperature falls, rests and rises: the latter by less than a part of its fastest pace. Too few are left out, as a
-/// line is not told in them.
-fn by_pace(time: &[f64], course: &[f64], used: &[usize]) -> Vec<Vec<usize>> {
+fn moves(course: &[f64]) -> bool {
+    let [least, most] = course.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], t| [least.min(*t), most.max(*t)]);
+    most - least > FEWEST_KELVIN
+}
+
+/// Place of the rows in which a temperature rests in [`by_pace`].
+const RESTS: usize = 1;
+
+/// The rows of those in use in which a temperature falls, rests and rises: the latter by more than a part of its fastest pace.
+fn by_pace(time: &[f64], course: &[f64], used: &[usize]) -> [Vec<usize>; 3] {
     let pace = |row: usize| {
         let ends = [row.saturating_sub(1), (row + 1).min(time.len() - 1)];
         (course[ends[1]] - course[ends[0]]) / (time[ends[1]] - time[ends[0]])
     };
     let fastest = used.iter().map(|row| pace(*row).abs()).fold(0.0, f64::max);
     let way = |row: usize| (pace(row) / fastest * PARTS).clamp(-1.0, 1.0).trunc();
-    let ways = [-1.0, 0.0, 1.0].map(|one| used.iter().copied().filter(|row| way(*row) == one).collect::<Vec<_>>());
-    ways.into_iter().filter(|rows| rows.len() as f64 * 2.0 * PARTS > used.len() as f64).collect()
+    [-1.0, 0.0, 1.0].map(|one| used.iter().copied().filter(|row| way(*row) == one).collect())
 }
 
 /// A warning of the lines, and what is done about them.
@@ -128,11 +127,13 @@ mod tests {
 
     /// The strongest line of a series beside even noise, and whether it goes on.
     fn goes_on_in(of: impl Fn(f64) -> f64) -> bool {
-        goes_on_beside(of, |_| 20.0)
+        let (line, goes_on) = beside(of, |_| 20.0);
+        assert!((line.period / PERIOD - 1.0).abs() < 0.02, "{line:?}");
+        goes_on
     }
 
     /// The same where the temperature has a course.
-    fn goes_on_beside(of: impl Fn(f64) -> f64, course: impl Fn(f64) -> f64) -> bool {
+    fn beside(of: impl Fn(f64) -> f64, course: impl Fn(f64) -> f64) -> (Line, bool) {
         let time: Vec<f64> = (0..ROWS).map(|n| 30.0 * n as f64).collect();
         let mut state = 1_u64;
         let mut noise = || {
@@ -141,11 +142,10 @@ mod tests {
         };
         let values: Vec<f64> = time.iter().map(|t| of(*t) + noise()).collect();
         let line = strongest(&time, &values, &values).expect("a line");
-        assert!((line.period / PERIOD - 1.0).abs() < 0.02, "{line:?}");
         let mut rest = values;
         take_off(&line, &time, &mut rest);
         let course: Vec<f64> = time.iter().map(|t| course(*t)).collect();
-        goes_on(&line, &time, &rest, Some(&course))
+        (line, goes_on(&line, &time, &rest, Some(&course)))
     }
 
     /// A ripple over temperature is a line while that ramps: in the other quarters, or at another pace, there is none.
@@ -163,22 +163,24 @@ mod tests {
     fn a_ripple_over_temperature_is_no_line_of_cycles() {
         // 40 K up in 4800 s, 1200 s of rest, and down again
         let cycles = |t: f64| {
-            20.0 + 40.0 * (t.rem_euclid(12_000.0) / 4800.0).min(1.0)
-                - 40.0 * ((t.rem_euclid(12_000.0) - 6000.0) / 4800.0).clamp(0.0, 1.0)
+            let (up, down) = (t.rem_euclid(12_000.0) / 4800.0, (t.rem_euclid(12_000.0) - 6000.0) / 4800.0);
+            20.0 + 40.0 * (up.min(1.0) - down.clamp(0.0, 1.0))
         };
-        let saw = |t: f64| 20.0 + (t.rem_euclid(9000.0) - 4500.0).abs() / 120.0;
         let wave = |t: f64| (std::f64::consts::TAU * t / PERIOD + 1.0).sin();
-        for course in [&cycles as &dyn Fn(f64) -> f64, &saw] {
-            let pace = (course(60.0) - course(0.0)).abs() / 60.0;
-            assert!(goes_on_beside(wave, course));
-            assert!(!goes_on_beside(|t| 2.0 * wave(course(t) / pace), course));
+        assert!(beside(wave, cycles).1);
+        for phase in 0..8 {
+            let (line, goes_on) = beside(|t| 2.0 * wave(cycles(t) / (40.0 / 4800.0) + 50.0 * f64::from(phase)), cycles);
+            assert!(!goes_on, "{line:?}");
         }
     }
 
+    /// A ramp, or ramps to and fro, of 40 K; one of 0.2 K makes no ripple.
     #[test]
-    fn one_ramp_alone_tells_no_line_from_a_ripple() {
-        let course = |of: fn(f64) -> f64| (0..ROWS).map(|n| of(n as f64 / ROWS as f64)).collect::<Vec<_>>();
-        assert!(is_ramp(&course(|x| 20.0 + 40.0 * x)) && is_ramp(&course(|x| 60.0 - 40.0 * x)));
-        assert!(!is_ramp(&course(|x| 20.0 + 40.0 * (6.0 * x).sin())) && !is_ramp(&course(|x| 20.0 + 0.2 * x)));
+    fn ramps_without_rest_tell_no_line_from_a_ripple() {
+        let end = 30.0 * ROWS as f64;
+        let wave = |t: f64| (std::f64::consts::TAU * t / PERIOD + 1.0).sin();
+        assert!(!beside(wave, |t| 20.0 + 40.0 * t / end).1 && !beside(wave, |t| 60.0 - 40.0 * t / end).1);
+        assert!(!beside(wave, |t| 20.0 + (t.rem_euclid(9000.0) - 4500.0).abs() / 120.0).1);
+        assert!(beside(wave, |t| 20.0 + 0.2 * t / end).1 && beside(wave, |t| 20.0 + 40.0 * (6.0 * t / end).sin()).1);
     }
 }
