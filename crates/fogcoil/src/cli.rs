@@ -92,6 +92,7 @@ pub(crate) enum Command {
     /// Designs around a drawing by the thousand, as a table: grids, samples, tolerances, and the part of the design from which the spread comes
     Sweep(Sweep),
     /// The design with the least sensitivity, spread, mass or length within limits, over numbers and choices; the front where several are weighed
+    #[command(alias = "optimize")]
     Optimise(Optimise),
     /// Thermometer and bias in time under a profile of the chamber's temperature, or from a thermometer's record
     Simulate(Simulate),

@@ -76,14 +76,14 @@ pub(crate) fn run(New { file, kind, second }: &New) -> Result<(), Error> {
             (second, kind)
         }
     };
-    // a file of that name is read as JSON
-    if file.extension().is_some_and(|end| end.eq_ignore_ascii_case("json")) {
-        let name = file.with_extension("ron");
-        return Err(Error::usage(format!(
-            "{}: templates are RON; name it {}",
-            files::shown_path(file),
-            files::shown_path(&name)
-        )));
+    // a file is read as its name says
+    let (form, right, wrong) = match kind {
+        Kind::Profile => ("the template of a profile is a table", "csv", ["json", "ron"]),
+        _ => ("templates are RON", "ron", ["json", "csv"]),
+    };
+    if file.extension().is_some_and(|end| wrong.iter().any(|wrong| end.eq_ignore_ascii_case(wrong))) {
+        let (file, name) = (files::shown_path(file), files::shown_path(&file.with_extension(right)));
+        return Err(Error::usage(format!("{file}: {form}; name it {name}")));
     }
     output::write_new(file, kind.template())?;
     print(&format!("{} is written; try `{} {0}`\n", files::shown_path(file), kind.first()))

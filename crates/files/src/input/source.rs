@@ -83,6 +83,11 @@ impl Source {
         if self.json.is_some() {
             remedy = json::remedy(remedy);
         }
+        let is_digit = |c: char| c.is_ascii_digit();
+        let behind = self.text[offset..].trim_start_matches(is_digit);
+        if behind.len() < self.text.len() - offset && behind.strip_prefix(',').is_some_and(|rest| rest.starts_with(is_digit)) {
+            remedy = "write decimals with a point, and a blank behind a comma between fields".into();
+        }
         let line = Some(error.span.start.line);
         InputError { line, field: Some(field).filter(|f| !f.is_empty()), ..InputError::whole(&self.path, problem, remedy) }
     }

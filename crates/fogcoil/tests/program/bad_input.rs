@@ -78,6 +78,8 @@ fn a_bad_value_in_the_winding() {
         ("turn_length: True", "turn_length: true", "winding.turn_length", "choose True or Equal"),
         ("pitch_mm: 0.170", "pitch_mm: 170.0", "winding.pitch_mm", "in mm, e.g. 0.170"),
         ("pitch_mm: 0.170", "pitch_mm: 0.000170", "winding.pitch_mm", "in mm, e.g. 0.170"),
+        ("pitch_mm: 0.170", "pitch_mm: 0,170", "winding.pitch_mm", "write decimals with a point"),
+        ("inner_radius_mm: 43.5", "inner_radius_mm: 43,5", "winding", "decimals with a point"),
         ("cw: 0.0, ccw", "cw: -0.1, ccw", "winding.tails_m.cw", "negative"),
         ("inner_radius_mm: 43.5", "inner_radius_mm: inf", "winding.inner_radius_mm", "not a finite number"),
     ];
@@ -114,9 +116,10 @@ fn a_bad_value_in_the_coil() {
         ("hub_bonded: true", "hub_bonded: 1", "spool.hub_bonded", "`true` or `false`"),
         ("overhang_mm: 1.0", "overhang_mm: -1.0", "spool.flanges[0].overhang_mm", "negative"),
         ("poisson_ratio: 0.33", "poisson_ratio: 0.5", "spool.material.poisson_ratio", "0.5 is not"),
-        ("margin_mm: 10.0", "margin_mm: 0.0", "surroundings.margin_mm", "not greater than 0"),
+        ("margin_mm: 10.0", "margin_mm: 0.0", "surroundings.margin_mm", "not greater than 0; give the value in mm, e.g. 10.0"),
         ("radius_mm: 39.5", "radius_mm: 70.0", "sensor", "outside the chamber"),
         ("refractive_index: 1.45", "refractive_index: 0.9", "optics.refractive_index", "less than 1"),
+        ("thermo_optic_per_k: 1.0e-5", "thermo_optic_per_k: 1.0e5", "optics.thermo_optic_per_k", "e.g. 1.0e-5 for silica"),
         ("p11: 0.121", "p11: 12.1", "optics.p11", "more than 1"),
         ("p12: 0.270", "p12: NaN", "optics.p12", "not a finite number"),
         ("strain: Total", "strain: Elastic", "optics.strain", "choose Total or Mechanical"),
@@ -252,6 +255,8 @@ fn a_path_is_checked_before_anything_is_read() {
 fn a_template_is_not_written_under_a_name_that_is_read_as_json() {
     let folder = Folder::new();
     refuse(&folder, &["new", "c.JSON"], &["c.JSON: templates are RON; name it c.ron"]);
+    refuse(&folder, &["new", "p.csv"], &["p.csv: templates are RON; name it p.ron"]);
+    refuse(&folder, &["new", "profile", "p.ron"], &["p.ron: the template of a profile is a table; name it p.csv"]);
     assert!(!folder.path("c.JSON").exists());
 }
 

@@ -375,6 +375,16 @@ fn what_is_written_is_said() {
     let wind = ["wind", "coil.ron", "--csv", "t.csv", "--svg", "t.svg"];
     assert_eq!(stderr(&folder.run(&wind)), "note: t.csv and t.svg are written\n");
     assert_eq!(stderr(&folder.run(&[&wind[..], &["--quiet"]].concat())), "");
+    // warnings stay
+    folder.write("long.ron", change(COIL, "(cw: 0.0, ccw: 0.0)", "(cw: 800.0, ccw: 0.0)"));
+    folder.write("f.csv", "time_s,chamber_c\n0,73\n3600,160\n");
+    let quiet = ["simulate", "long.ron", "--profile", "f.csv", "--out", "f.b.csv", "--quiet"];
+    for (arguments, ids) in [(&["wind", "long.ron", "-q"][..], &["long-tail"][..]), (&quiet, &["long-tail", "fahrenheit"])] {
+        let said = stderr(&folder.run(arguments));
+        let all: Vec<&str> = said.lines().collect();
+        assert!(all.len() == ids.len() && all.iter().zip(ids).all(|(line, id)| line.ends_with(&format!("[{id}]"))), "{said}");
+        assert!(all.iter().all(|line| line.starts_with("warning: ")), "{said}");
+    }
     // and that nothing happens in a profile of one row
     let said = stderr(&folder.run(&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv"]));
     assert!(said.contains("note: p.csv: has one row, in which nothing can happen [one-row]\n"), "{said}");
