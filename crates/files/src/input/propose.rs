@@ -12,7 +12,8 @@ use super::record_options::{Key, RecordOptions};
 use super::rows::quoted;
 use super::sniff::{Sniffed, sniff};
 use super::sniff_columns::{
-    Found, date_and_time, find, holds, is_instant, perhaps, perhaps_temperatures, unit, unread_instants, unused_temperatures,
+    Found, are_days, date_and_time, find, holds, is_counts, is_instant, perhaps, perhaps_temperatures, unit, unread_instants,
+    unused_temperatures,
 };
 use super::timestamp::FORMS;
 use crate::Error;
@@ -99,11 +100,13 @@ fn proposed(table: &Sniffed, options: &RecordOptions) -> Proposal {
         ..MapFile::default()
     };
     let (mut doubts, mut taken) = (Vec::new(), Vec::new());
+    let said = |key: Key| options.units.iter().any(|(of, _)| *of == key) || options.scales.iter().any(|(of, _)| *of == key);
     for key in Key::ALL {
         let two = date_and_time(table).filter(|_| key == Key::Time);
         let found = match options.columns.iter().find(|(of, _)| *of == key) {
             Some((_, name)) => table.names.iter().position(|other| other == name).map(|column| Found::of(table, column, key)),
-            None => find(table, key),
+            // a count is no unit of a rate, and there is none that is usual
+            None => find(table, key).filter(|found| said(key) || !is_counts(&table.names[found.column])),
         };
         if let Some((day, time)) =
             two.filter(|(day, time)| found.as_ref().is_none_or(|found| [*day, *time].contains(&found.column)))
@@ -117,7 +120,6 @@ fn proposed(table: &Sniffed, options: &RecordOptions) -> Proposal {
         }
     }
     map.declare(options);
-    let said = |key: Key| options.units.iter().any(|(of, _)| *of == key) || options.scales.iter().any(|(of, _)| *of == key);
     doubts.retain(|(key, doubt)| doubt.starts_with("or ") || !said(*key));
     let missing: Vec<Key> = [Key::Time, Key::Rate].into_iter().filter(|key| !has(table, &map, *key)).collect();
     Proposal { asides: asides(table, &map, &taken, &missing), map, doubts, missing }
@@ -141,6 +143,10 @@ fn propose_column(table: &Sniffed, key: Key, found: &Found, map: &mut MapFile, d
     }
     match unit.filter(|_| !dates) {
         Some(unit) if unit != standard => of.unit = unit.into(),
+        None if key == Key::Time && are_days(table, *column) => {
+            of.unit = "d".into();
+            doubts.push((key, "numbers of days, as a spreadsheet writes dates: taken as d".into()));
+        }
         None if !dates && name != key.standard() => doubts.push((key, no_unit(foreign.as_deref(), standard))),
         _ => {}
     }

@@ -92,6 +92,25 @@ fn increases(table: &Sniffed, column: usize) -> bool {
     values.len() > 1 && values.windows(2).all(|pair| pair[1] > pair[0])
 }
 
+/// Whether a column holds dates as numbers of days since 1900, of the years 1968 to 2105: with the decimals that seconds need, and rows closer than an hour.
+pub(super) fn are_days(table: &Sniffed, column: usize) -> bool {
+    let fields = || table.rows.iter().map(|row| row[column].trim());
+    let is_day = |field: &str| number(field).is_some_and(|day| (25_000.0..75_000.0).contains(&day));
+    let decimals = |field: &str| field.split_once(['.', ',']).map_or(0, |(_, decimals)| decimals.len());
+    let values: Vec<f64> = fields().filter_map(number).collect();
+    fields().all(is_day)
+        && fields().any(|field| decimals(field) >= DAY_DECIMALS)
+        && values.windows(2).all(|pair| (0.0..1.0 / 24.0).contains(&(pair[1] - pair[0])))
+}
+
+/// Decimals of a day that tell seconds.
+const DAY_DECIMALS: usize = 5;
+
+/// Whether a name says that a column holds counts.
+pub(super) fn is_counts(name: &str) -> bool {
+    tokens(&name.to_lowercase()).iter().any(|token| ["count", "counts", "cnt", "lsb", "raw", "adc"].contains(token))
+}
+
 /// Whether a column counts in a unit of time by the end of its name alone, like `t_min` or `Minutes`: then its numbers must increase.
 fn is_counted(table: &Sniffed, column: usize) -> bool {
     let says = |(bare, text, _): (&str, &str, _)| bare.trim().eq_ignore_ascii_case("t") || is_long(text);

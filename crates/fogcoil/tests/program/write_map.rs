@@ -302,3 +302,31 @@ fn a_rate_is_known_by_its_unit_and_numbers_without_one_may_be_temperatures() {
     let written = std::fs::read_to_string(folder.path("s.map.ron")).unwrap();
     assert!(written.contains("rate: (column: \"gyro [deg/h]\"") && written.contains("or `table [deg/h]`"), "{written}");
 }
+
+/// A spreadsheet's dates are numbers of days; a gyroscope that is told in counts has no unit until it is given.
+#[test]
+fn days_of_a_spreadsheet_are_days_and_counts_have_no_unit() {
+    let folder = Folder::new();
+    let row = |_: usize, [t, c, s, r]: [f64; 4]| format!("{:.8},{c:.4},{s:.5},{r:.6}", 46_332.3125 + t / 86_400.0);
+    folder.write("r.csv", format!("Stamp,chamber [degC],spool [degC],rate [deg/h]\r\n{}", lines(row)));
+    let output = folder.run(&["check", "r.csv", "--write-map"]);
+    let written = std::fs::read_to_string(folder.path("r.map.ron")).unwrap_or_else(|_| panic!("{}", stderr(&output)));
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(written.contains("time: (column: \"Stamp\", unit: \"d\"), // numbers of days, as a spreadsheet writes"), "{written}");
+    // an instant of a test that runs for long is none: it has no decimals of a day
+    let row = |_: usize, [t, c, s, r]: [f64; 4]| format!("{:.2},{c:.4},{s:.5},{r:.6}", 46_332.31 + t / 1e4);
+    folder.write("s.csv", format!("Stamp,chamber [degC],spool [degC],rate [deg/h]\r\n{}", lines(row)));
+    folder.run(&["check", "s.csv", "--write-map"]);
+    let written = std::fs::read_to_string(folder.path("s.map.ron")).unwrap();
+    assert!(written.contains("time: (column: \"Stamp\"), // its name says no unit"), "{written}");
+
+    let row = |_: usize, [t, c, s, r]: [f64; 4]| format!("{t},{c:.4},{s:.5},{:.0}", r / 0.02);
+    folder.write("c.csv", format!("time [s],chamber [degC],spool [degC],gyro_counts\r\n{}", lines(row)));
+    let output = folder.run(&["check", "c.csv", "--write-map"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("c.csv: no column's name says that it is the rate"), "{}", stderr(&output));
+    let written = std::fs::read_to_string(folder.path("c.map.ron")).unwrap();
+    assert!(written.contains("// rate: (column: \"gyro_counts\", unit: \"?\"),"), "{written}");
+    let output = folder.run(&["check", "c.csv", "--write-map", "d.ron", "--scale", "rate=0.02"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
