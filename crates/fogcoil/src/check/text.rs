@@ -133,14 +133,13 @@ fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
     let told =
         |name: &str, value: f64, error: String, unit: &str| vec![name.to_owned(), significant(value, 3), error, unit.to_owned()];
     let row = |name: &str, value: f64, error: Option<f64>, unit: &str| told(name, value, percent(error), unit);
-    let white = || noise.white_ends(1.0).map_or_else(|| percent(None), sides);
     let mut rows = vec![["", "value", "± 1 sd", "unit"].map(str::to_owned).to_vec()];
     match noise.white() {
-        Some(sd) => rows.push(told("white noise of a sample", sd, white(), "deg/h")),
+        Some(sd) => rows.push(told("white noise of a sample", sd, white(noise), "deg/h")),
         None => rows.push(vec!["white noise of a sample".into(), "-".into(), "hidden by slower noise".into(), "deg/h".into()]),
     }
     if let Some(walk) = noise.angle_random_walk() {
-        rows.push(told("angle random walk", walk, white(), "deg/sqrt(h)"));
+        rows.push(told("angle random walk", walk, white(noise), "deg/sqrt(h)"));
     }
     if let Some(bench) = analysis.case.meta.as_ref().and_then(|meta| meta.nominal_arw_deg_per_sqrt_h) {
         rows.push(vec!["  the meta file's".into(), significant(bench, 3), String::new(), "deg/sqrt(h)".into()]);
@@ -202,26 +201,35 @@ fn percent(error: Option<f64>) -> String {
     error.map_or("not known".to_owned(), |error| format!("± {:.0} %", 100.0 * error))
 }
 
+/// Ends of the white noise.
+fn white(noise: &GyroNoise) -> String {
+    noise.white_ends(1.0).map_or_else(|| percent(None), sides)
+}
+
 /// Ends of an interval over its middle.
 fn sides([low, high]: [f64; 2]) -> String {
     let [below, above] = [1.0 - low, high - 1.0].map(|error| format!("{:.0}", 100.0 * error));
     if below == above { format!("± {above} %") } else { format!("-{below} % to +{above} %") }
 }
 
+/// Column of [`several`] for the remarks, or the reason of an unusable recording.
+const REMARKS: usize = 7;
+
 /// A line for each recording; a reason for which several cannot be used stands below them, once.
-pub fn several(lines: &[[String; 7]]) -> String {
-    let head = ["recording", "", "rows", "span", "interval [s]", "angle random walk [deg/sqrt(h)]", "remarks"].map(str::to_owned);
-    let why = |line: &[String; 7]| Some(line[6].clone()).filter(|_| line[1] == UNUSABLE);
+pub fn several(lines: &[[String; 8]]) -> String {
+    let head = ["recording", "", "rows", "span", "interval [s]", "angle random walk [deg/sqrt(h)]", "± 1 sd", "remarks"]
+        .map(str::to_owned);
+    let why = |line: &[String; 8]| Some(line[REMARKS].clone()).filter(|_| line[1] == UNUSABLE);
     let mut shared: Vec<String> = Vec::new();
     for reason in lines.iter().filter_map(why) {
         if !shared.contains(&reason) && lines.iter().filter_map(why).filter(|other| *other == reason).count() > 1 {
             shared.push(reason);
         }
     }
-    let shown = |line: &[String; 7]| {
+    let shown = |line: &[String; 8]| {
         let number = why(line).and_then(|reason| shared.iter().position(|other| *other == reason));
-        let remarks = number.map_or_else(|| line[6].clone(), |n| format!("({})", n + 1));
-        [&line[..6], &[remarks]].concat()
+        let remarks = number.map_or_else(|| line[REMARKS].clone(), |n| format!("({})", n + 1));
+        [&line[..REMARKS], &[remarks]].concat()
     };
     let mut out = table(&std::iter::once(head.to_vec()).chain(lines.iter().map(shown)).collect::<Vec<_>>());
     for (n, reason) in shared.iter().enumerate() {
@@ -231,14 +239,14 @@ pub fn several(lines: &[[String; 7]]) -> String {
 }
 
 /// The line of a recording that cannot be read.
-pub fn unreadable(file: &Path, why: &str) -> [String; 7] {
+pub fn unreadable(file: &Path, why: &str) -> [String; 8] {
     let none = || "-".to_owned();
     // the file is named in the first column
     let place = why.strip_prefix(&format!("{}:", files::shown_path(file))).map(|rest| match rest.split_once(':') {
         Some((line, rest)) if !line.is_empty() && line.bytes().all(|byte| byte.is_ascii_digit()) => format!("line {line}:{rest}"),
         _ => rest.trim_start().to_owned(),
     });
-    [files::shown_path(file), UNUSABLE.into(), none(), none(), none(), none(), place.unwrap_or_else(|| why.to_owned())]
+    [files::shown_path(file), UNUSABLE.into(), none(), none(), none(), none(), none(), place.unwrap_or_else(|| why.to_owned())]
 }
 
 /// The longest gap, and how many there are, in words; `None` without one.
@@ -251,7 +259,7 @@ fn gaps(gaps: &[Gap]) -> Option<String> {
 
 impl Analysis<'_> {
     /// The recording's line among others: rows, span, interval, angle random walk, the ids of its warnings, and its gaps.
-    pub fn line(&self) -> [String; 7] {
+    pub fn line(&self) -> [String; 8] {
         let Self { case, notes, noise } = self;
         let file = &case.fingerprint.file;
         if let Err(error) = case.require_usable() {
@@ -263,7 +271,8 @@ impl Analysis<'_> {
             let unit = DurationUnit::of(instants.span);
             format!("{} {}", significant(unit.of_seconds(instants.span), 3), unit.name)
         });
-        let walk = noise.as_ref().and_then(GyroNoise::angle_random_walk);
+        let walk = noise.as_ref().and_then(|noise| Some((noise.angle_random_walk()?, white(noise))));
+        let (walk, ends) = walk.map_or((None, "-".to_owned()), |(walk, ends)| (Some(walk), ends));
         let notes = notes.iter().filter(|note| note.is_warning()).map(|note| note.remark.id());
         // of values that were left out, and of a size that nothing explains, a note is worth a word here, too
         let worth = |finding: &&Finding| {
@@ -282,6 +291,7 @@ impl Analysis<'_> {
             span,
             number(instants.map(|instants| instants.interval), 4),
             number(walk, 3),
+            ends,
             remarks.join(", "),
         ]
     }
