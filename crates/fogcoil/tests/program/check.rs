@@ -167,6 +167,7 @@ fn several_recordings_have_a_line_each() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let line = |name: &str| text.lines().find(|line| line.starts_with(name)).unwrap_or_else(|| panic!("{name}: {text}"));
     assert!(line("lot/a.csv").contains("usable") && line("lot/U2/b.csv").contains(" 700 "), "{text}");
+    assert!(line("recording").contains("± 1 sd") && line("lot/a.csv").contains(" %"), "{text}");
     assert_eq!(text.lines().count(), 3, "{text}");
     // a gap has a word in the line, of several the longest
     let kept = |gaps: &[[usize; 2]]| -> Vec<_> {
