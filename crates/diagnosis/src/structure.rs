@@ -39,21 +39,6 @@ impl Structure {
         Self::Step,
         Self::Accumulation,
     ];
-
-    /// Description in words.
-    pub fn describe(self) -> &'static str {
-        match self {
-            Self::PeriodicInLevel => "periodic in the level",
-            Self::Level => "a function of the level",
-            Self::RateByLevel => "proportional to the rate, with a factor that depends on the level",
-            Self::Rate => "a nonlinear function of the rate",
-            Self::History => "a function of the history (lagged rate)",
-            Self::Acceleration => "proportional to the change of the rate",
-            Self::Direction => "dependent on the direction of change",
-            Self::Step => "a step in time",
-            Self::Accumulation => "accumulating with time or with cycling",
-        }
-    }
 }
 
 pub(crate) fn range<'a>(x: impl Iterator<Item = &'a f64>) -> [f64; 2] {

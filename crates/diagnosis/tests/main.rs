@@ -11,6 +11,7 @@ mod real_recordings;
 mod refused;
 mod rivals;
 mod sampled;
+mod search;
 mod separation;
 mod spectrum;
 mod starts;

@@ -2,8 +2,8 @@
 
 use crate::common::normal;
 use diagnosis::{
-    Active, Channel, ForwardModel, NoisePrior, Nuisance, Observation, Omission, Parameter, Prior, Role, Settings, State,
-    diagnose_settled, settled,
+    Active, Channel, Diagnosis, Fit, ForwardModel, NoisePrior, Nuisance, Observation, Omission, Parameter, Prior, Role, Settings,
+    Settled, State, diagnose_settled, settled,
 };
 
 const WHITE: f64 = 0.05;
@@ -22,8 +22,10 @@ struct Pair {
     about: Option<usize>,
     /// effect of a mechanism of size one, in a model about itself or not
     effect: fn(usize, bool, f64) -> f64,
-    /// whether there is always a model that is better still
-    restless: bool,
+    /// of all effects
+    scale: f64,
+    /// factor on the scale of a model made anew, if there is always one that is better still
+    growth: Option<f64>,
 }
 
 /// Known badly elsewhere, and then looked like by the other one.
@@ -67,6 +69,23 @@ fn one_of_many(mechanism: usize, about_itself: bool, x: f64) -> f64 {
     if mechanism < 2 { bent(mechanism, about_itself, x) } else { (5.0 * x).sin() + 0.05 * beside.cos() }
 }
 
+/// One of a shape of its own and the same everywhere; the other a quarter too large elsewhere.
+fn unlike_and_larger(mechanism: usize, about_itself: bool, x: f64) -> f64 {
+    let beside = if mechanism == LOOKS { 0.01 * (9.0 * x).cos() } else { 0.0 };
+    larger(mechanism, about_itself, x) + beside
+}
+
+/// The same, about itself or not.
+fn unlike(mechanism: usize, _: bool, x: f64) -> f64 {
+    unlike_and_larger(mechanism, true, x)
+}
+
+/// Each seems likelier elsewhere than it is about itself, and is a quarter too large there.
+fn flattered(mechanism: usize, about_itself: bool, x: f64) -> f64 {
+    let worse = 0.01 + 0.002 * if mechanism == 1 { 1.0 } else { 0.0 };
+    if about_itself { (5.0 * x).sin() + worse * (14.0 * x).cos() } else { 1.25 * (5.0 * x).sin() }
+}
+
 fn x() -> impl Iterator<Item = f64> {
     (0..ROWS).map(|n| n as f64 / (ROWS - 1) as f64)
 }
@@ -90,7 +109,8 @@ impl Pair {
             state: State { level: vec![0.0; ROWS], rate: vec![0.0; ROWS] },
             about,
             effect,
-            restless: false,
+            scale: 1.0,
+            growth: None,
         }
     }
 
@@ -139,7 +159,8 @@ impl ForwardModel for Pair {
 
     fn respond(&self, _: usize, gain: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         let of = |x: f64| {
-            let effect = |a: &Active| a.values[0] * (self.effect)(self.which(a), self.about == Some(self.which(a)), x);
+            let effect =
+                |a: &Active| self.scale * a.values[0] * (self.effect)(self.which(a), self.about == Some(self.which(a)), x);
             gain[0] * (x + active.iter().map(effect).sum::<f64>())
         };
         Ok(vec![x().map(of).collect()])
@@ -153,9 +174,10 @@ impl ForwardModel for Pair {
             mechanisms: self.mechanisms.clone(),
             state: self.state.clone(),
             about: leads,
+            scale: self.scale * self.growth.unwrap_or(1.0),
             ..*self
         };
-        Ok((self.restless || leads != self.about).then(next))
+        Ok((self.growth.is_some() || leads != self.about).then(next))
     }
 
     fn state(&self, _: usize) -> &State {
@@ -219,7 +241,7 @@ fn the_model_is_that_of_the_likeliest_if_it_led_before() {
 /// A search that never arrives ends all the same, and its progress with it.
 #[test]
 fn a_search_without_an_end_is_as_long_as_was_said() {
-    let pair = Pair { restless: true, ..Pair::new(bent, [1.0; 2], None) };
+    let pair = Pair { growth: Some(1.0), ..Pair::new(bent, [1.0; 2], None) };
     let told = std::cell::RefCell::new(Vec::new());
     settled(&pair, &[0], &[observed()], &|step| told.borrow_mut().push(step.done.expect("a count"))).expect("a fit");
     let told = told.into_inner();
@@ -270,4 +292,80 @@ fn whatever_did_not_lead_counts_as_about_itself() {
     let found = diagnose_settled(&pair, &mut settled, &[0], &observed, &Settings::default(), &|_| ()).expect("a diagnosis");
     let probability = |mechanism: usize| found.mechanisms.iter().find(|(m, _)| *m == mechanism).map_or(0.0, |(_, p)| *p);
     assert!([LOOKS, WORKS].iter().all(|m| (0.4..0.6).contains(&probability(*m))), "{:?}", found.mechanisms);
+}
+
+/// A comparison with all that it is told, and how many there were.
+fn compared(pair: &Pair, settled: &mut Settled<Pair>) -> (Diagnosis, usize) {
+    let comparisons = std::cell::Cell::new(0);
+    let count = |step: progress::Step| {
+        if step.task == "nominal model and noise" {
+            comparisons.set(comparisons.get() + 1);
+        }
+    };
+    let found = diagnose_settled(pair, settled, &[0], &[observed()], &Settings::default(), &count).expect("a diagnosis");
+    (found, comparisons.get())
+}
+
+/// What has no name is not followed before the comparison, and its size elsewhere is wrong.
+#[test]
+fn whatever_the_comparison_finds_is_followed_to_a_model_about_it() {
+    let mut pair = Pair::new(unlike_and_larger, [1.0; 2], None);
+    pair.mechanisms[WORKS].named = false;
+    let mut settled = settled(&pair, &[0], &[observed()], &|_| ()).expect("a fit");
+    assert_eq!(settled.leading.as_ref().expect("one leads").active[0].mechanism, LOOKS);
+    let (found, comparisons) = compared(&pair, &mut settled);
+    let best = &found.best().fit.active[0];
+    assert_eq!((best.mechanism, settled.model.expect("a model").about, comparisons), (WORKS, Some(WORKS), 2));
+    assert!((best.values[0] - TRUTH).abs() < 0.1, "{best:?}");
+}
+
+/// A model about it says nothing else of it.
+#[test]
+fn whatever_is_the_same_about_itself_is_compared_once() {
+    let mut pair = Pair::new(unlike, [1.0; 2], None);
+    pair.mechanisms[WORKS].named = false;
+    let mut settled = settled(&pair, &[0], &[observed()], &|_| ()).expect("a fit");
+    let (found, comparisons) = compared(&pair, &mut settled);
+    let best = &found.best().fit.active[0];
+    assert_eq!((best.mechanism, settled.model.expect("a model").about, comparisons), (WORKS, Some(LOOKS), 1));
+    assert!((best.values[0] - TRUTH).abs() < 0.1, "{best:?}");
+}
+
+/// Nothing is made anew about the one that led and is the likeliest, though there is always a model that says something else of its size.
+#[test]
+fn the_one_that_led_is_not_followed_again() {
+    let pair = Pair { growth: Some(1.1), ..Pair::new(unlike, [1.0; 2], None) };
+    let mut settled = settled(&pair, &[0], &[observed()], &|_| ()).expect("a fit");
+    let led = settled.leading.clone().expect("one leads").active;
+    let scale = settled.model.as_ref().expect("a model").scale;
+    let (found, comparisons) = compared(&pair, &mut settled);
+    assert_eq!((&found.best().fit.active, comparisons), (&led, 1));
+    assert_eq!(settled.model.expect("a model").scale, scale);
+    assert!((led[0].values[0] * scale - TRUTH).abs() < 0.1, "{led:?}");
+}
+
+/// Wherever the model is made anew another one without a name seems likelier: after three comparisons the last model stays, and all that led count as
+/// about themselves.
+#[test]
+fn comparisons_that_lead_ever_further_are_three() {
+    let mut crowd = Pair::with_a_crowd(flattered);
+    for (number, mechanism) in crowd.mechanisms.iter_mut().enumerate().skip(2) {
+        (mechanism.named, mechanism.weight) = (false, 10.0 - number as f64);
+    }
+    // nor are two at once likely
+    crowd.mechanisms[1].weight = 1e-4;
+    let mut settled = settled(&crowd, &[0], &[observed()], &|_| ()).expect("a fit");
+    assert_eq!(settled.leading.as_ref().expect("one leads").active[0].mechanism, 0);
+    let (found, comparisons) = compared(&crowd, &mut settled);
+    assert_eq!((found.best().fit.active[0].mechanism, comparisons), (4, 3));
+    assert_eq!(settled.model.expect("a model").about, Some(3));
+    let size = |mechanism: usize| {
+        let alone = |fit: &&Fit| matches!(&fit.active[..], [active] if active.mechanism == mechanism);
+        let mut plain = found.candidates.iter().filter(|c| c.rival.is_none()).map(|c| &c.fit);
+        plain.find(alone).expect("it was compared").active[0].values[0]
+    };
+    for mechanism in 0..6 {
+        let expected = if mechanism < 4 { TRUTH } else { TRUTH / 1.25 };
+        assert!((size(mechanism) - expected).abs() < 0.1, "{mechanism}: {}", size(mechanism));
+    }
 }

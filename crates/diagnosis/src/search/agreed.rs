@@ -102,3 +102,45 @@ fn differ(a: &Fit, b: &Fit) -> bool {
     };
     (a.log_evidence - b.log_evidence).abs() > MATTERS || b.layout.iter().enumerate().any(moved)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::candidate;
+    use nalgebra::{DMatrix, DVector};
+
+    /// A fit of a constant, which is known to 1, and of a mechanism's parameter, which is known to 0.1.
+    fn fit(log_evidence: f64, [constant, parameter]: [f64; 2]) -> Fit {
+        Fit {
+            log_evidence,
+            layout: vec![Unknown::Nuisance { number: 0, record: None }, Unknown::Mechanism { place: 0, parameter: 0 }],
+            u: DVector::from_vec(vec![constant, parameter]),
+            covariance: DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, 0.01])),
+            ..candidate(&[0], 0.0).fit
+        }
+    }
+
+    #[test]
+    fn fits_differ_by_how_likely_they_are_and_by_where_the_mechanism_is() {
+        let here = fit(-100.0, [1.0, 2.0]);
+        for (log_evidence, unknowns, expected) in [
+            (-100.0, [1.0, 2.0], false),
+            (-100.5, [1.0, 2.0], false),
+            (-99.5, [1.0, 2.0], false),
+            (-101.5, [1.0, 2.0], true),
+            (-98.5, [1.0, 2.0], true),
+            // a fifth of a standard deviation, and two fifths
+            (-100.0, [1.0, 2.02], false),
+            (-100.0, [1.0, 1.98], false),
+            (-100.0, [1.0, 2.04], true),
+            (-100.0, [1.0, 1.96], true),
+            // where the constants are does not matter
+            (-100.0, [5.0, 2.0], false),
+        ] {
+            assert_eq!(differ(&here, &fit(log_evidence, unknowns)), expected, "{log_evidence} {unknowns:?}");
+        }
+        // nothing differs from itself, not even where nothing is left unknown
+        let known = Fit { covariance: DMatrix::zeros(2, 2), ..here };
+        assert!(!differ(&known, &known));
+    }
+}
