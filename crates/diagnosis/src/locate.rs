@@ -3,6 +3,7 @@
 use crate::fit::Fit;
 use crate::noise::Noise;
 use crate::{ForwardModel, Observation, State};
+use nalgebra::Complex;
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
 /// Share of false discoveries among the significant ones.
@@ -193,30 +194,25 @@ impl Fit {
         (0..FREQUENCIES)
             .map(|k| {
                 let frequency = low * (high / low).powf(k as f64 / (FREQUENCIES - 1) as f64);
-                let transform = |series: &[f64], from: usize| -> [f64; 2] {
+                // where the clock starts turns both transforms alike
+                let transform = |series: &[f64], from: usize| -> Complex<f64> {
                     let part = &series[from..from + length];
                     let mean = part.iter().sum::<f64>() / length as f64;
-                    let mut sum = [0.0; 2];
-                    for (i, x) in part.iter().enumerate() {
+                    let term = |(i, x): (usize, &f64)| {
                         let window = (std::f64::consts::PI * i as f64 / (length - 1) as f64).sin().powi(2);
-                        let phase = std::f64::consts::TAU * frequency * (time[from + i] - time[from]);
-                        let v = (x - mean) * window;
-                        sum[0] += v * phase.cos();
-                        sum[1] -= v * phase.sin();
-                    }
-                    sum
+                        Complex::cis(std::f64::consts::TAU * frequency * time[from + i]) * ((x - mean) * window)
+                    };
+                    part.iter().enumerate().map(term).sum()
                 };
+                let of_segments =
+                    |series: &[f64]| -> Vec<_> { (0..SEGMENTS).map(|s| transform(series, s * length / 2)).collect() };
+                let power = |parts: &[Complex<f64>]| parts.iter().map(Complex::norm_sqr).sum::<f64>();
+                let of_residual = of_segments(&residual);
                 let coherence = [level, rate, &change].map(|state: &Vec<f64>| {
-                    let (mut cross, mut a2, mut b2) = ([0.0; 2], 0.0, 0.0);
-                    for s in 0..SEGMENTS {
-                        let from = (s * length / 2).min(n - length);
-                        let (a, b) = (transform(&residual, from), transform(state, from));
-                        cross[0] += a[0] * b[0] + a[1] * b[1];
-                        cross[1] += a[1] * b[0] - a[0] * b[1];
-                        a2 += a[0] * a[0] + a[1] * a[1];
-                        b2 += b[0] * b[0] + b[1] * b[1];
-                    }
-                    if a2 * b2 > 0.0 { (cross[0].powi(2) + cross[1].powi(2)) / (a2 * b2) } else { 0.0 }
+                    let of_state = of_segments(state);
+                    let cross: Complex<f64> = of_residual.iter().zip(&of_state).map(|(a, b)| a * b.conj()).sum();
+                    let powers = power(&of_residual) * power(&of_state);
+                    if powers > 0.0 { cross.norm_sqr() / powers } else { 0.0 }
                 });
                 Spectrum { frequency, coherence, threshold }
             })

@@ -79,6 +79,73 @@ fn quantile(prior: &Prior, mixture: &[(Normal, f64)], share: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::verdict::{candidate, library};
+    use crate::{Active, Parameter, Rival, Structure};
+
+    const PRIOR: Prior = Prior::Normal { mean: 10.0, sd: 2.0 };
+    /// Standard deviation of a size's u, far less than its distances.
+    const NARROW: f64 = 0.01;
+
+    /// A mechanism with a choice at work; its size's u is the choice plus `shift`.
+    fn choosing(choice: f64, shift: f64, probability: f64) -> Candidate {
+        let mut candidate = candidate(&[0], probability);
+        let (fit, u) = (&mut candidate.fit, shift + choice);
+        fit.hypothesis.mechanisms = vec![(0, Some(choice))];
+        fit.active = vec![Active { mechanism: 0, values: vec![PRIOR.value(u)], choice: Some(choice) }];
+        fit.layout = vec![Unknown::Offset { record: 0, channel: 0 }, Unknown::Mechanism { place: 0, parameter: 0 }];
+        fit.u = nalgebra::DVector::from_column_slice(&[0.3, u]);
+        fit.covariance = nalgebra::DMatrix::from_row_slice(2, 2, &[0.5, 0.0, 0.0, NARROW * NARROW]);
+        candidate
+    }
+
+    /// Estimates of the choice and the size.
+    fn estimated(candidates: &[Candidate]) -> [Estimate; 2] {
+        let mut model = library(&[true, true]);
+        model.0[0].choice = Some(("place".into(), (0..10).map(f64::from).collect()));
+        model.0[0].parameters = vec![Parameter::new("size", PRIOR)];
+        estimates(&model, candidates, 0).try_into().expect("a choice and a size")
+    }
+
+    /// Ends of what a candidate at u = 0 says of its size.
+    fn own_ends() -> [f64; 2] {
+        [-1.0, 1.0].map(|side| PRIOR.value(side * 1.644_853_626_951 * NARROW))
+    }
+
+    fn near(a: [f64; 2], b: [f64; 2]) {
+        assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9), "{a:?} {b:?}");
+    }
+
+    /// A half of all probability, of which five choices have so much that the ends of the interval are in the middle of the second and of the last but
+    /// one: there the size is the one of these. All else has the other half.
+    #[test]
+    fn exact_an_interval_is_that_of_all_choices_by_their_shares_and_of_nothing_else() {
+        let likeliest = [choosing(3.0, -3.0, 0.44)];
+        let choices =
+            [choosing(5.0, -3.0, 0.02), choosing(1.0, -3.0, 0.02), choosing(4.0, -3.0, 0.01), choosing(2.0, -3.0, 0.01)];
+        let rival = Some(Rival { structure: Structure::Step, channel: 0, at: None, gain: 0.0 });
+        let beside = Candidate { rival, ..choosing(0.0, -4.0, 0.2) };
+        let (mut recalibrated, mut pair) = (choosing(9.0, -4.0, 0.2), choosing(8.0, -4.0, 0.1));
+        recalibrated.fit.hypothesis.constants_free = true;
+        pair.fit.hypothesis.mechanisms.push((1, None));
+        for others in [vec![], vec![beside], vec![recalibrated], vec![pair]] {
+            let [choice, size] = estimated(&[&likeliest[..], &others, &choices].concat());
+            assert_eq!((choice.value, choice.ci90, size.value), (3.0, [2.0, 4.0], PRIOR.value(0.0)));
+            near(size.ci90, [-1.0, 1.0].map(|u| PRIOR.value(u)));
+        }
+        // the only one
+        let [choice, size] = estimated(&likeliest);
+        assert_eq!(choice.ci90, [3.0; 2]);
+        near(size.ci90, own_ends());
+    }
+
+    #[test]
+    fn where_nothing_is_probable_a_candidate_speaks_for_itself() {
+        for nothing in [0.0, f64::NAN] {
+            let [choice, size] = estimated(&[choosing(3.0, -3.0, nothing), choosing(5.0, -3.0, nothing)]);
+            assert_eq!(choice.ci90, [3.0; 2]);
+            near(size.ci90, own_ends());
+        }
+    }
 
     #[test]
     fn exact_quantiles_of_one_normal_and_of_two() {

@@ -68,3 +68,29 @@ pub fn proven<'f>(
     }
     Ok(borne_out)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_records_of_any_length_have_the_same_weight() {
+        // errors of two channels
+        let held = |rmse: [f64; 2]| HeldOut {
+            prediction: Vec::new(),
+            rmse: rmse.to_vec(),
+            noise_floor: vec![1.0; 2],
+            of_minutes: vec![f64::NAN; 2],
+            quiet: vec![1.0; 2],
+            log_score: 0.0,
+        };
+        let all = |before: &[[f64; 2]], after: &[[f64; 2]]| {
+            let [before, after] = [before, after].map(|of| of.iter().copied().map(held).collect());
+            Proof { before, after, accepted: false }
+        };
+        // 1² + 7² and 17² + 31² are twice 5² and 25²
+        let proof = all(&[[1.0, 17.0], [7.0, 31.0]], &[[2.0, 0.5], [2.0, 0.5]]);
+        assert_eq!([0, 1].map(|channel| proof.rmse(channel)), [[5.0, 2.0], [25.0, 0.5]]);
+        assert_eq!(all(&[], &[]).rmse(0), [0.0; 2]);
+    }
+}

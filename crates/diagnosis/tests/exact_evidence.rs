@@ -36,6 +36,14 @@ fn exact_of(columns: &[Vec<f64>], prior: DMatrix<f64>, y: &[f64]) -> Exact {
     }
 }
 
+/// Covariance beforehand of two constants that go together, and of an offset.
+fn prior_of(lines: &Lines, correlation: f64) -> DMatrix<f64> {
+    let mut prior =
+        DMatrix::from_diagonal(&DVector::from_column_slice(&[PRIOR_SD, PRIOR_SD, lines.offset_sd()].map(|sd| sd * sd)));
+    (prior[(0, 1)], prior[(1, 0)]) = (correlation * PRIOR_SD.powi(2), correlation * PRIOR_SD.powi(2));
+    prior
+}
+
 fn fit(lines: &Lines, y: &[f64], hypothesis: &Hypothesis) -> Fit {
     fitted(lines, &[0], &[lines.observed(y)], std::slice::from_ref(hypothesis)).expect("a fit")
 }
@@ -100,10 +108,7 @@ proptest! {
         let lines = Lines::with_constants(40, correlation);
         let y: Vec<f64> = noise(40, seed).iter().zip(lines.column(1)).map(|(e, x)| e + size * x).collect();
         let columns = [lines.column(0), lines.column(1), vec![1.0; 40]];
-        let mut prior = DMatrix::from_diagonal(&DVector::from_column_slice(&[PRIOR_SD, PRIOR_SD, lines.offset_sd()].map(|sd| sd * sd)));
-        let apart = exact_of(&columns, prior.clone(), &y);
-        (prior[(0, 1)], prior[(1, 0)]) = (correlation * PRIOR_SD.powi(2), correlation * PRIOR_SD.powi(2));
-        let together = exact_of(&columns, prior, &y);
+        let [apart, together] = [0.0, correlation].map(|correlation| exact_of(&columns, prior_of(&lines, correlation), &y));
         let [constants, mechanism] = [Hypothesis::RECALIBRATED, alone(0)].map(|hypothesis| fit(&lines, &y, &hypothesis));
         let (gain, expected) = (mechanism.log_evidence - constants.log_evidence, apart.log_evidence - together.log_evidence);
         prop_assert!((gain - expected).abs() < 1e-4 * (1.0 + expected.abs()), "{gain} {expected}");
@@ -111,6 +116,67 @@ proptest! {
             let sd = exact.covariance[(1, 1)].sqrt();
             prop_assert!((fit.nuisances[0][1] - exact.mean[1]).abs() < 1e-3 * sd, "{:?} {}", fit.nuisances, exact.mean);
         }
+    }
+
+    /// Constants as a fit leaves them, in standard deviations of their priors and in any order; those that were not fitted are as they were.
+    #[test]
+    fn what_is_believed_of_constants_is_the_exact_posterior(seed in any::<u64>(), correlation in -0.95..0.95_f64, size in -3.0..3.0_f64) {
+        let lines = Lines::with_constants(40, correlation);
+        let y: Vec<f64> = noise(40, seed).iter().zip(lines.column(1)).map(|(e, x)| e + size * x).collect();
+        let columns = [lines.column(0), lines.column(1), vec![1.0; 40]];
+        let (together, apart) = (exact_of(&columns, prior_of(&lines, correlation), &y), exact_of(&columns, prior_of(&lines, 0.0), &y));
+        let believed = |hypothesis: &Hypothesis, numbers: [usize; 2]| {
+            let believed = fit(&lines, &y, hypothesis).believed(&lines, &numbers).expect("constants of a unit");
+            (believed.mean, believed.covariance)
+        };
+        for numbers in [[0, 1], [1, 0]] {
+            let (mean, covariance) = believed(&Hypothesis::RECALIBRATED, numbers);
+            for (i, a) in numbers.into_iter().enumerate() {
+                let sd = together.covariance[(a, a)].sqrt();
+                prop_assert!((PRIOR_SD * mean[i] - together.mean[a]).abs() < 1e-3 * sd, "{mean} {}", together.mean);
+                for (j, b) in numbers.into_iter().enumerate() {
+                    let exact = together.covariance[(a, b)] / PRIOR_SD.powi(2);
+                    prop_assert!((covariance[(i, j)] - exact).abs() < 1e-4 * (sd / PRIOR_SD).powi(2), "{covariance} {exact}");
+                }
+            }
+            // a mechanism stands for the first
+            let (mean, covariance) = believed(&alone(0), numbers);
+            let (first, second) = (numbers[0], numbers[1]);
+            let exact = apart.covariance[(1, 1)] / PRIOR_SD.powi(2);
+            prop_assert!((PRIOR_SD * mean[second] - apart.mean[1]).abs() < 1e-3 * PRIOR_SD * exact.sqrt() && mean[first] == 0.0);
+            prop_assert!((covariance[(second, second)] / exact - 1.0).abs() < 1e-4, "{covariance} {exact}");
+            prop_assert!(covariance[(first, first)] == 1.0 && covariance[(0, 1)] == 0.0 && covariance[(1, 0)] == 0.0, "{covariance}");
+        }
+        let (mean, covariance) = believed(&Hypothesis::NOMINAL, [0, 1]);
+        prop_assert_eq!((mean, covariance), (DVector::zeros(2), DMatrix::identity(2, 2)));
+    }
+
+    /// An effect x stands out by xᵀ (A P Aᵀ + σ² I)⁻¹ x, whatever the records have made of all else, with what the constants A are known by beforehand or
+    /// by a lot.
+    #[test]
+    fn an_effect_stands_out_of_the_covariance_of_all_else(seed in any::<u64>(), correlation in -0.95..0.95_f64, size in 0.1..3.0_f64) {
+        let lines = Lines::with_constants(40, correlation);
+        let y: Vec<f64> = noise(40, seed).iter().zip(lines.column(0)).map(|(e, x)| e + 2.5 * x).collect();
+        let recalibrated = fit(&lines, &y, &Hypothesis::RECALIBRATED);
+        let columns = [lines.column(0), lines.column(1), vec![1.0; 40]];
+        let effect = diagnosis::Active { mechanism: 1, values: vec![size], choice: None };
+        let exact = |prior: DMatrix<f64>| {
+            let a = DMatrix::from_vec(40, 3, columns.concat());
+            let x = DVector::from_vec(lines.column(1)) * size;
+            let covariance = &a * prior * a.transpose() + DMatrix::identity(40, 40) * WHITE.powi(2);
+            x.dot(&covariance.cholesky().expect("positive definite").solve(&x)).sqrt()
+        };
+        let by = |known| recalibrated.stands_out(&lines, &[0], &effect, known).expect("a size");
+        let beforehand = exact(prior_of(&lines, correlation));
+        prop_assert!((by(None) / beforehand - 1.0).abs() < 1e-4, "{} {beforehand}", by(None));
+        // a lot knows the second constant to a tenth of its tolerance, the first one to a half of it, and how they go together
+        let lot = DMatrix::from_row_slice(2, 2, &[0.01, 0.02, 0.02, 0.25]);
+        let mut prior = prior_of(&lines, 0.0);
+        for (i, a) in [1, 0].into_iter().enumerate() {
+            [1, 0].into_iter().enumerate().for_each(|(j, b)| prior[(a, b)] = lot[(i, j)] * PRIOR_SD.powi(2));
+        }
+        let (found, by_lot) = (by(Some((&[1, 0], &lot))), exact(prior));
+        prop_assert!((found / by_lot - 1.0).abs() < 1e-4 && by_lot > beforehand, "{found} {by_lot}");
     }
 
     #[test]
@@ -160,6 +226,13 @@ fn records_that_share_nothing_are_fitted_together_as_each_alone() {
         );
     }
     assert!((both.nuisances[0][0] - both.nuisances[1][0]).abs() > 3.0, "{:?}", both.nuisances);
+}
+
+#[test]
+fn what_every_record_has_of_its_own_is_no_constant_of_a_unit() {
+    let lines = Lines::with_own_constants(40);
+    let said = fit(&lines, &noise(40, 1), &Hypothesis::RECALIBRATED).believed(&lines, &[1]).expect_err("no constant");
+    assert_eq!(said.to_string(), "every record has its own b, which is no constant of a unit");
 }
 
 #[test]

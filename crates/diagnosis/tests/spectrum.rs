@@ -68,6 +68,13 @@ fn a_residual_like_the_change_of_the_rate_is_coherent_with_that() {
 }
 
 #[test]
+fn what_stands_still_is_coherent_with_nothing() {
+    let state = State { level: vec![25.0; ROWS], rate: white(6) };
+    let spectra = spectra(&state, &white(7), instants(true));
+    assert!(of(&spectra, 0).iter().all(|c| *c == 0.0) && of(&spectra, 1).iter().all(|c| *c > 0.0), "{spectra:?}");
+}
+
+#[test]
 fn noise_exceeds_the_threshold_once_in_twenty() {
     let mut above = Vec::new();
     for seed in 0..24 {

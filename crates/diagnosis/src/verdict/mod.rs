@@ -10,7 +10,7 @@ mod unlisted;
 
 pub use judge::{Contradiction, Judged, Judgement, Ruling, SURE};
 #[cfg(test)]
-pub(crate) use set::tests::candidate;
+pub(crate) use set::tests::{candidate, library};
 
 use crate::fit::{Fit, Hypothesis};
 use crate::{Estimate, Rival, Stage};

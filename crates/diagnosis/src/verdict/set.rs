@@ -65,7 +65,7 @@ pub(super) mod tests {
     use crate::{Active, Channel, Nuisance, Omission, State};
 
     /// A library alone: mechanisms with or without a name.
-    pub(crate) struct Library(Vec<Omission>);
+    pub(crate) struct Library(pub(crate) Vec<Omission>);
 
     pub(crate) fn library(named: &[bool]) -> Library {
         let of = |(n, named): (usize, &bool)| Omission {

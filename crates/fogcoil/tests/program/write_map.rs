@@ -307,7 +307,7 @@ fn a_rate_is_known_by_its_unit_and_numbers_without_one_may_be_temperatures() {
 #[test]
 fn days_of_a_spreadsheet_are_days_and_counts_have_no_unit() {
     let folder = Folder::new();
-    let row = |_: usize, [t, c, s, r]: [f64; 4]| format!("{:.8},{c:.4},{s:.5},{r:.6}", 46_332.3125 + t / 86_400.0);
+    let row = |_: usize, [t, c, s, r]: [f64; 4]| format!("{:.8},{c:.4},{s:.5},{r:.6}", 46_332.312_5 + t / 86_400.0);
     folder.write("r.csv", format!("Stamp,chamber [degC],spool [degC],rate [deg/h]\r\n{}", lines(row)));
     let output = folder.run(&["check", "r.csv", "--write-map"]);
     let written = std::fs::read_to_string(folder.path("r.map.ron")).unwrap_or_else(|_| panic!("{}", stderr(&output)));
