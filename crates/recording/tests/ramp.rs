@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "helpers of tests")]
 
 use crate::common::{Random, even, simulate};
+use recording::lag::lagging;
 use recording::noise::NoiseModel;
 use recording::ramp::{Absent, Direction, Estimate, Input, Response, Short, respond};
 
@@ -101,13 +102,18 @@ impl Record {
     }
 
     fn respond(&self) -> Result<Response, Absent> {
+        self.respond_over(&self.temperature)
+    }
+
+    /// With a thermometer of its own at the seat.
+    fn respond_over(&self, seat: &[f64]) -> Result<Response, Absent> {
         respond(&Input {
             time: &self.time,
             values: &self.values,
             mask: &vec![true; self.time.len()],
             drive: &self.temperature,
             reading: [self.reading, 0.0],
-            seat: &self.temperature,
+            seat,
             interval: self.interval,
             averaging: self.interval,
         })
@@ -230,6 +236,48 @@ fn intervals_hold_the_truth_of_a_slow_part() {
         (coverage.2 / coverage.1 as f64).sqrt()
     );
     assert!(coverage.1 + refused == DRAWS as usize && coverage.0 * 10 >= coverage.1 * 8, "{} of {}", coverage.0, coverage.1);
+}
+
+/// Stretches of a programme from 20 degC: minutes, and the temperature behind them.
+fn stretches(of: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut t = 0.0;
+    let ends = of.iter().map(|(minutes, to)| {
+        t += 60.0 * minutes;
+        (t, *to)
+    });
+    [(0.0, 20.0)].into_iter().chain(ends).collect()
+}
+
+/// A coil and its spool settle with a time constant that is longer than a third of the ramps, and noise hides that of the rate: the thermometer at the spool
+/// still tells it. A sensitivity that is told holds the truth however large the noise, and slow ramps still tell it.
+#[test]
+fn a_thermometer_at_the_seat_tells_how_slowly_a_body_settles() {
+    let cycle = [(20.0, 50.0), (20.0, 50.0), (40.0, -10.0), (20.0, -10.0), (20.0, 20.0)];
+    let cycles = stretches(&[&[(20.0, 20.0)], &cycle[..], &cycle[..], &cycle[..]].concat());
+    let soaks = stretches(&[(20.0, 20.0), (13.0, 45.0), (85.0, 45.0), (18.0, 10.0), (80.0, 10.0), (14.0, -15.0), (85.0, -15.0)]);
+    let ramps = stretches(&[(20.0, 20.0), (67.0, 60.0), (75.0, 60.0), (100.0, -20.0), (75.0, -20.0), (80.0, 20.0), (60.0, 20.0)]);
+    let lags = [900.0, 1346.0];
+    // a cascade of both, −2.5 u/(K/min)
+    let amounts = [-150.0 * lags[0] / (lags[0] - lags[1]), 150.0 * lags[1] / (lags[0] - lags[1])];
+    let unit = Unit { lags, heating: amounts, cooling: amounts, rest: [0.0; 2], hysteresis: 0.0 };
+    for (name, programme, has_to_tell) in [("cycles", &cycles, false), ("soaks", &soaks, false), ("ramps", &ramps, true)] {
+        for (seed, white) in [0.03, 0.1, 0.3].into_iter().enumerate() {
+            let record = Record::of(&unit, programme, &NoiseModel::white(white, 60.0), 0.01, seed as u64);
+            let exact: Vec<f64> = record.time.iter().map(|t| temperature(programme, *t)).collect();
+            let mut random = Random::new(seed as u64 + 500);
+            let behind = lagging(&record.time, &exact, 1346.0);
+            let seat: Vec<f64> = exact.iter().zip(behind).map(|(t, behind)| t - 0.98 * behind + 0.01 * random.normal()).collect();
+            let found = record.respond_over(&seat).unwrap();
+            println!("{name}, {white}: {:?}", found.sensitivity);
+            assert!(!has_to_tell || found.sensitivity.is_ok(), "{name}, {white}: {:?}", found.sensitivity);
+            for (told, truth) in
+                [(&found.sensitivity, -150.0), (&found.heating, -150.0), (&found.cooling, -150.0), (&found.asymmetry, 0.0)]
+            {
+                let off = told.as_ref().map_or(0.0, |told| (told.value - truth).abs() / told.sd);
+                assert!(off < 2.576, "{name}, {white}: {off} {told:?}");
+            }
+        }
+    }
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Reasons why a number cannot be determined.
 
+use super::settling::Slowest;
 use crate::{Error, Seconds};
 
 /// A response three time constants into a ramp is 95 % of what it settles at: the longest is a third of that.
@@ -80,12 +81,24 @@ pub enum Short {
     Rests,
     /// The ramp: the rest is longer than it can tell of.
     Ramps,
+    /// Neither: the seat settles more slowly, and tells how slowly.
+    Seat,
 }
 
 impl Watch {
     /// Longest time constant that is sought, in whole seconds.
     fn lag(&self) -> f64 {
         (self.settling / SETTLED).round()
+    }
+
+    /// The same beside a seat that settles so slowly: the longest of its time constants lies between the longest that are sought.
+    pub(super) fn beside(self, slowest: Slowest) -> Self {
+        match slowest {
+            Slowest::Of(lag) if SETTLED * lag > self.settling => {
+                Self { settling: SETTLED * std::f64::consts::SQRT_2 * lag, short: Short::Seat, ..self }
+            }
+            _ => self,
+        }
     }
 
     /// The same where a bias at rest is sought: a rest tells of it however short the ramp.
@@ -99,6 +112,7 @@ impl std::fmt::Display for Watch {
         let (why, remedy) = match self.short {
             Short::Both => ("a third of the longest ramp", "ramps or rests"),
             Short::Rests => ("a third of the longest rest", "rests"),
+            Short::Seat => ("that with which the thermometer over which a bias is sought settles", "ramps or rests"),
             Short::Ramps => ("two thirds of its ramp, in which a slower response hardly begins", "ramps"),
         };
         write!(f, "time constants are sought up to {why}: the longest ramp lasts about {} s", Seconds(self.ramp.round()))?;

@@ -1,12 +1,14 @@
 //! Response of a channel to a temperature's rate of change: the steady-ramp sensitivity, by heating and cooling, beside a bias over temperature.
 //!
 //! A linear system that conducts heat answers a temperature T with Σ cₖ rₖ, where rₖ is the rate of T as a first-order system of time constant τₖ
-//! follows it. In a steady ramp every rₖ settles at the ramp's rate: the **sensitivity** is Σ cₖ \[u per K/s\], and the record need not hold a ramp
-//! long enough to settle for it to be told. The time constants go down by halves from a third of the longest ramp or rest, and, in a second
+//! follows it. In a steady ramp every rₖ settles at the ramp's rate: the **sensitivity** is Σ cₖ \[u per K/s\], and no ramp of the record has to settle fully
+//! for it to be told, if the record shows how it settles. The time constants go down by halves from a third of the longest ramp or rest, and, in a second
 //! set, from that over √2: what the two sets differ by counts as an error, and so do two parts in a hundred of the sensitivity, by which both may miss what
 //! lies between. All lags in one set miss no more than one in a thousand; where a record tells the sensitivity by these with half the error, the amounts
 //! being taken to differ by no more than a few sensitivities, it is told by these. What a time constant twice as long as the longest changes beyond what noise
-//! explains is an error, too; where that is more than a tenth of the sensitivity, none is told: the unit settles more slowly than the record lets it. Rates upwards and
+//! explains is an error, too; where that is more than a tenth of the sensitivity, none is told: the unit settles more slowly than the record lets it. Noise hides
+//! such a change, and a bias over temperature takes its place. Where the seat is another temperature than the one that drives, its own course tells how slowly
+//! the body settles, whatever the channel's noise: the time constants then begin no lower than that. Rates upwards and
 //! downwards have amounts of their own where the record has both: **heating** and **cooling**, the sensitivity being their mean. Beside them
 //! stand an offset, a parabola in the temperature (**span**: what it changes by over the record's range), and what settles from the state in which the
 //! record begins.
@@ -27,6 +29,7 @@ mod hysteresis;
 mod input;
 mod lags;
 mod model;
+mod settling;
 
 pub use absent::{Absent, Direction, Short, Watch};
 pub use estimate::Estimate;
@@ -37,6 +40,7 @@ use crate::noise::NoiseEstimate;
 use branches::Course;
 use design::{Design, Weights};
 use model::{Model, Observed, over};
+use settling::Slowest;
 
 /// A sum of amounts that a design has.
 type Sum<'a> = &'a dyn Fn(&Design) -> Result<Weights, Absent>;
@@ -98,8 +102,16 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
         lags::sets(settling, rate, noise, input.interval)
     };
     let sets = sets_of(watch.settling)?;
+    // a seat that is not the drive tells how slowly the body settles
+    let seated = input.seat != input.drive;
+    let slowest = if seated { settling::slowest(input, sets[0][0], watch.rest)? } else { Slowest::Of(0.0) };
+    let (ramps, watch) = (watch, watch.beside(slowest));
+    let sets = if watch.short == Short::Seat { sets_of(watch.settling)? } else { sets };
     let models: Vec<Model> = sets.iter().map(|lags| Model::new(design(lags), observed)).collect::<Result<_, _>>()?;
-    let slow = slow(&models, &Model::new(design(&lags::slower(&sets[0])), observed)?);
+    let slow = match slowest {
+        Slowest::Of(_) => slow(&models, &Model::new(design(&lags::slower(&sets[0])), observed)?),
+        Slowest::Beyond => Slow::Unsettled,
+    };
     let not_settled = || Err(Absent::Unsettled(watch));
     let found = |of: Sum| over(&models, |model| model.told(&of(&model.design)?, noise));
     let coarse = |of: Sum| {
@@ -137,7 +149,7 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     let hysteresis = || {
         models.iter().try_for_each(|model| hysteresis::rests(&model.design, &course, observed, input.drive, input.interval))?;
         // a response that hardly begins in a ramp is still seen at the rest behind it
-        let watch = watch.at_rest();
+        let watch = if matches!(slowest, Slowest::Beyond) { ramps } else { watch }.at_rest();
         let sets = sets_of(watch.settling)?;
         let within = |lags: &[f64], size: Option<f64>| {
             let design = hysteresis::beside(&design(lags), &course);
@@ -156,15 +168,18 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
         Ok(Estimate { sd: found.sd.hypot(other.value - found.value), ..found })
     };
     let sensitivity = told(figures[0]);
+    // a mean that is not told has no part that is
+    let part = |of: Sum| told(of).and_then(|found| sensitivity.clone().map(|_| found));
     // of terms that cannot be told apart no sum over temperatures is known either
     let apart = if sensitivity == Err(Absent::Indistinct) { Err(Absent::Indistinct) } else { Ok(()) };
     Ok(Response {
-        heating: told(figures[1]),
-        cooling: told(figures[2]),
+        heating: part(figures[1]),
+        cooling: part(figures[2]),
         asymmetry: if is_finer { fine(&Design::asymmetry) } else { found(&Design::asymmetry).and_then(settled) },
         hysteresis: hysteresis(),
         span: apart.clone().and_then(|()| span(&models)).and_then(settled),
-        peak: apart.and_then(|()| peak(&models, input)),
+        // what a slow response and a bias over temperature make together is known where they are not told apart
+        peak: if watch.short == Short::Seat { Ok(()) } else { apart }.and_then(|()| peak(&models, input)),
         sensitivity,
         lags: sets.concat(),
         noise: models[0].noise.clone(),
