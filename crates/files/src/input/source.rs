@@ -8,9 +8,8 @@ use serde::de::DeserializeOwned;
 use super::InputError;
 use super::fields::{FieldMap, join};
 use super::fingerprint::Fingerprint;
-use super::json;
 use super::scanner::{Scanner, Token};
-use super::syntax::explain;
+use super::syntax::{explain, in_json};
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Source {
@@ -81,7 +80,7 @@ impl Source {
             remedy = "close every bracket, or get the whole file".into();
         }
         if self.json.is_some() {
-            remedy = json::remedy(remedy);
+            remedy = in_json(remedy);
         }
         let is_digit = |c: char| c.is_ascii_digit();
         let behind = self.text[offset..].trim_start_matches(is_digit);

@@ -68,3 +68,21 @@ pub(crate) fn explain(error: &Error, rest: &str) -> (String, String) {
     };
     (problem.into(), remedy.into())
 }
+
+/// Remedies of faults of syntax: for RON, for JSON.
+const REMEDIES: [(&str, &str); 6] = [
+    ("write it in parentheses, (name: value, ...)", "write it in braces, {\"name\": value, ...}"),
+    ("write Normal(mean, standard deviation), e.g. Normal(0.0, 0.01)", "write {\"Normal\": [mean, standard deviation]}"),
+    (
+        "write LogNormal(median, standard deviation of the logarithm), e.g. LogNormal(1800.0, 1.0)",
+        "write {\"LogNormal\": [median, standard deviation of the logarithm]}",
+    ),
+    ("write Uniform(low, high), e.g. Uniform(0.0, 50.0)", "write {\"Uniform\": [low, high]}"),
+    ("write (\"first key\", \"second key\", 0.5)", "write [\"first key\", \"second key\", 0.5]"),
+    ("add it to the group that ends here", "add it to the braces that end here"),
+];
+
+/// A remedy of [`explain`] for who writes JSON.
+pub(super) fn in_json(of_ron: String) -> String {
+    REMEDIES.iter().find(|(ron, _)| *ron == of_ron).map_or(of_ron, |(_, json)| (*json).to_owned())
+}

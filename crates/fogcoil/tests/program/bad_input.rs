@@ -251,6 +251,20 @@ fn a_path_is_checked_before_anything_is_read() {
     }
 }
 
+/// Faults of a file in JSON are mended in JSON.
+#[test]
+fn a_fault_in_json_is_told_in_its_words() {
+    let folder = Folder::new();
+    folder.write("c.json", "{\n \"name\": \"x\",\n \"spool\": 3\n}\n");
+    refuse(
+        &folder,
+        &["wind", "c.json"],
+        &["c.json:3: spool: a group of fields is needed; write it in braces, {\"name\": value, ...}"],
+    );
+    folder.write("c.json", "{\n \"name\": tru\n}\n");
+    refuse(&folder, &["wind", "c.json"], &["c.json:2: is not JSON: expected ident, at its end"]);
+}
+
 #[test]
 fn a_template_is_not_written_under_a_name_that_is_read_as_json() {
     let folder = Folder::new();
