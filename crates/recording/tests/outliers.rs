@@ -23,7 +23,7 @@ fn the_onset_of_a_response_is_no_outlier() {
 /// Beside a gap a value has neighbours on one side alone, as at an end.
 #[test]
 fn a_lone_value_beside_a_gap_is_one_and_a_step_there_is_none() {
-    let gaps = [300..312, 900..905, 1500..1600];
+    let gaps = [300..312, 900..903, 1500..1600];
     let without = |mut sample: crate::check::Sample, change: &dyn Fn(usize) -> f64| {
         (0..ROWS).for_each(|row| sample.rate[row] += change(row));
         let kept: Vec<usize> = (0..ROWS).filter(|row| !gaps.iter().any(|gap| gap.contains(row))).collect();
@@ -36,7 +36,7 @@ fn a_lone_value_beside_a_gap_is_one_and_a_step_there_is_none() {
     };
     for seed in 0..50 {
         // the last before a gap, the last but one, the first behind one, the second
-        let bad = [299, 898, 905, 1601];
+        let bad = [299, 898, 903, 1601];
         let size = |row: usize| if bad.contains(&row) { 1.0 } else { 0.0 };
         let (masked, usable) = without(sound(seed, 0.01), &size);
         assert!(usable && masked == bad, "seed {seed}: {masked:?}");

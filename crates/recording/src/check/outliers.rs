@@ -59,7 +59,8 @@ fn lone_values(context: &Context, mask: &mut [bool]) -> Option<Vec<(usize, f64)>
         found.iter().for_each(|(row, _)| mask[*row] = false);
     }
     let used: Vec<usize> = (0..time.len()).filter(|&row| mask[row]).collect();
-    for run in used.chunk_by(|a, b| (time[*a] - time[*b]).abs() < NEAR * context.interval) {
+    // a row beside a longer gap has less than two neighbours behind it
+    for run in used.chunk_by(|a, b| (time[*a] - time[*b]).abs() < (NEAR - 1.0) * context.interval) {
         for (row, distance) in
             [run.to_vec(), run.iter().rev().copied().collect()].iter().flat_map(|inwards| end(context, inwards, noise))
         {
