@@ -339,6 +339,10 @@ remarks! {
         "A record does not tell one of the numbers that `measure` gives; the message says which, and why.",
         "The number is null, and no other depends on it.",
         "Record what the message names: a ramp, a rest before and after it, a temperature held from either side, more rows.";
+    OneTemperature "one-temperature":
+        "A sensitivity is told from a record with one temperature: of the chamber, or of the spool.",
+        "It holds for a unit that settles within the time constant that the message names. What settles more slowly is missing from it where noise hides it, and the interval does not say so.",
+        "Record both temperatures, which tell how slowly the unit settles, or ramps of three times its longest time constant.";
     OtherDesign "other-design":
         "A meta file says that the unit was built to a design of another name.",
         "The model may be that of another coil.",

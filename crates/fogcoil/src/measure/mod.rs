@@ -12,9 +12,9 @@ mod text;
 
 use bias::units::S_PER_MIN;
 use files::{Note, Remark};
-use recording::Recording;
 use recording::condition::{Thinned, Thinning, bridged, thinned};
 use recording::ramp::{Absent, Estimate, Input, Response, respond};
+use recording::{Recording, Seconds};
 
 use crate::check::Analysis;
 use crate::input::{CHAMBER, Fingerprint, InputError, RATE, RecordCase, SPOOL};
@@ -105,6 +105,7 @@ pub fn measure(case: &RecordCase) -> Result<Measurement, InputError> {
         floor_is_bound: analysis.noise.as_ref().is_some_and(|noise| noise.is_bound),
         notes,
     };
+    measured.notes.extend(one_temperature(&measured).map(|note| note.at(file)));
     let missing = measured
         .figures()
         .into_iter()
@@ -112,6 +113,16 @@ pub fn measure(case: &RecordCase) -> Result<Measurement, InputError> {
     let missing: Vec<Note> = missing.map(|text| Remark::NotMeasured.note(text).at(file)).collect();
     measured.notes.extend(missing);
     Ok(measured)
+}
+
+/// A note of a sensitivity beside which no second temperature tells how slowly the unit settles.
+fn one_temperature(measured: &Measurement) -> Option<Note> {
+    let [drive, _] = measured.temperatures.filter(|[drive, seat]| drive == seat)?;
+    let longest = Seconds(measured.lags.first()?.round());
+    let text = format!(
+        "{drive} alone does not tell how slowly the unit settles: the sensitivity is that of responses up to {longest} s"
+    );
+    measured.sensitivity.is_ok().then(|| Remark::OneTemperature.note(text))
 }
 
 impl Measurement {

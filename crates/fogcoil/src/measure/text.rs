@@ -53,6 +53,12 @@ pub fn several(measured: &[Result<Measurement, (PathBuf, Error)>], prediction: O
     if let Some(prediction) = prediction {
         let _ = writeln!(out, "The sensitivity of {} is {}.", prediction.design, short(&Ok(prediction.sensitivity)));
     }
+    let is_alone = |one: &Measurement| one.notes.iter().any(|note| note.remark == Remark::OneTemperature);
+    if measured.iter().flatten().any(is_alone) {
+        out.push_str(
+            "A record with one temperature does not tell how slowly the unit settles (`fogcoil explain one-temperature`).\n",
+        );
+    }
     for (_, error) in measured.iter().filter_map(|one| one.as_ref().err()) {
         let _ = writeln!(out, "{error}");
     }

@@ -166,6 +166,9 @@ fn the_independent_code_s_coil_is_measured() {
         assert!(low < STEADY && STEADY < high, "{name}: {low} {value} {high}");
         assert!(error < high - low && error < 0.1 * STEADY.abs() + (high - low) / 2.0, "{name}: {low} {value} {high}");
     }
+    // the other temperature tells how slowly the unit settles
+    let notes = |found: &Value| found["notes"].to_string().contains("chamber_c alone does not tell how slowly the unit settles");
+    assert!(notes(&told("P2", false)) && !notes(&told("P2", true)));
     // sines and steps of minutes: the coil takes half an hour to settle
     let fast = told("P4", false);
     assert!(
