@@ -7,6 +7,8 @@ mod conclude;
 mod judge;
 mod set;
 mod unlisted;
+#[cfg(test)]
+mod waves;
 
 pub use judge::{Contradiction, Judged, Judgement, Ruling, SURE};
 #[cfg(test)]

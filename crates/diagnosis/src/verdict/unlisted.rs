@@ -103,6 +103,23 @@ mod tests {
     }
 
     #[test]
+    fn a_law_no_likelier_than_a_name_leaves_it_its_place() {
+        // e⁰ against e⁰: exactly as likely
+        let certain = Candidate { log_weight: 0.0, ..candidate(&[0], 1.0) };
+        let of = |log_weight: f64| {
+            let (candidates, verdicts) = (vec![certain.clone()], [0.0, 0.0, 1.0, 0.0]);
+            let mut diagnosis = Diagnosis { candidates, verdicts, mechanisms: vec![(0, 1.0)], ..explained() };
+            diagnosis.weigh_unlisted(log_weight, &[], 0.0, 0.0);
+            diagnosis
+        };
+        let even = of(0.0);
+        assert_eq!(even.verdicts(), [0.0, 0.0, 0.5, 0.5]);
+        assert_eq!((even.verdict, even.set.as_slice()), (Verdict::Explained, &[0][..]));
+        let likelier = of(0.01);
+        assert_eq!((likelier.verdict, likelier.set.len()), (Verdict::Unknown, 0));
+    }
+
+    #[test]
     fn a_law_takes_a_name_s_place_where_it_is_likelier_with_its_choice_paid() {
         // as likely as all others together, whatever the choice cost
         for choice in [0.0, 4.0] {
