@@ -11,7 +11,8 @@ pub enum Dimensions {
     /// All dimensions are those of the drawing.
     #[default]
     AsDrawn,
-    /// The coil's outer radius and height keep their distance from the ends of the winding, the thermometer its distance from the bore and from mid height, D
+    /// Turns that the drawing spreads evenly up to an end keep their spacing over the pitch, so that this end moves. The coil's outer radius and height keep
+    /// their distance from the ends of the winding, the thermometer its distance from the bore and from mid height, D
     /// its distance from the mean diameter; odd and even layers differ by as many turns. A key that the plan varies does not follow.
     FollowWinding,
 }
@@ -20,6 +21,10 @@ const OUTER_RADIUS: &str = "coil.outer_radius_mm";
 const HEIGHT: &str = "coil.height_mm";
 const ODD: &str = "winding.turns_odd_layers";
 const EVEN: &str = "winding.turns_even_layers";
+const LAYERS: &str = "winding.layers";
+const PITCH: &str = "winding.pitch_mm";
+const START: &str = "winding.start_mm";
+const END: &str = "winding.end_mm";
 const SAGNAC: &str = "optics.sagnac_diameter_mm";
 const INNER: &str = "winding.inner_radius_mm";
 const HUB: &str = "spool.hub_thickness_mm";
@@ -39,16 +44,30 @@ impl Dimensions {
         let number = |key: &str, drawn: f64| {
             edits.iter().find(|(edited, _)| edited == key).and_then(|(_, text)| text.parse().ok()).unwrap_or(drawn)
         };
-        let pitch = number("winding.pitch_mm", to_mm(spec.pitch));
+        let pitch = number(PITCH, to_mm(spec.pitch));
         let odd = number(ODD, spec.turns_odd_layers as f64);
         let inner = number(INNER, to_mm(spec.inner_radius));
-        let layers = number("winding.layers", spec.layers as f64);
+        let layers = number(LAYERS, spec.layers as f64);
         let mut room = Vec::new();
+        let mut even = number(EVEN, spec.turns_even_layers as f64);
         if is_varied(edits, ODD) && !is_varied(edits, EVEN) {
-            room.push((EVEN.to_owned(), format!("{}", odd - (spec.turns_odd_layers as f64 - spec.turns_even_layers as f64))));
+            even = odd - (spec.turns_odd_layers as f64 - spec.turns_even_layers as f64);
+            room.push((EVEN.to_owned(), format!("{even}")));
         }
         // a layer is no higher than a pitch, a row of turns no longer than one turn more
-        let bounds = [(OUTER_RADIUS, inner + (layers + 1.0) * pitch), (HEIGHT, (odd + 2.0) * pitch)];
+        let mut height = (odd + 2.0) * pitch;
+        if spec.end.is_some()
+            && !is_varied(edits, END)
+            && [LAYERS, PITCH, ODD, EVEN, START].iter().any(|key| is_varied(edits, key))
+        {
+            let [turns_odd_layers, turns_even_layers, layers] = [odd, even, layers].map(|count| count as usize);
+            let touching =
+                winding::Spec { turns_odd_layers, turns_even_layers, layers, pitch, start: 0.0, end: None, ..spec.clone() };
+            let end = number(START, to_mm(spec.start)) + touching.edges()[1] * spec.spacing() / spec.pitch;
+            room.push((END.to_owned(), format!("{end}")));
+            height = height.max(end + pitch);
+        }
+        let bounds = [(OUTER_RADIUS, inner + (layers + 1.0) * pitch), (HEIGHT, height)];
         let design = &case.design;
         if let Some(hub) = design.spool.as_ref().map(|spool| to_mm(spool.hub_thickness))
             && SENSOR.iter().all(|key| !is_varied(edits, key))

@@ -217,6 +217,28 @@ fn a_body_follows_its_winding_and_what_cannot_be_says_why() {
     assert!(json["failed"].as_u64().unwrap() >= 3 && problems.contains("set it to 80 or to one less"), "{json} {problems}");
 }
 
+/// An end up to which the turns are spread moves with their number: turns that touch are those of a drawing without ends, others keep their spacing.
+#[test]
+fn an_end_of_the_winding_follows_its_turns() {
+    let varied = "\"winding.layers\": OneOf([1, 36]), \"winding.turns_odd_layers\": OneOf([80, 106])";
+    let plan = format!(
+        "(design: \"coil.ron\", sampling: Grid, vary: {{{varied}}}, dimensions: FollowWinding, outputs: [Sensitivity, Winding])"
+    );
+    let folder = with_plan(&plan);
+    let numbers = |ends: &str, name: &str| {
+        folder.write("coil.ron", change(COIL, "cw_climbs: Right", &format!("{ends}cw_climbs: Right")));
+        assert_eq!(swept(&folder, &["plan.ron", "--out", "f.csv"])["failed"], 0);
+        column(&folder, "f.csv", name).iter().map(|text| text.parse().unwrap()).collect::<Vec<f64>>()
+    };
+    for name in ["height_mm", "total"] {
+        let (touching, ended) = (numbers("", name), numbers("start_mm: 0.0, end_mm: 18.02, ", name));
+        assert!(touching.iter().zip(&ended).all(|(a, b)| (a / b - 1.0).abs() < 1e-6), "{name}: {touching:?} {ended:?}");
+    }
+    // 106 turns in 17.96 mm
+    let spread = numbers("start_mm: 0.03, end_mm: 17.99, ", "height_mm");
+    assert!((spread[3] - 18.02).abs() < 1e-9 && (spread[3] - spread[2] - 26.0 * 17.96 / 106.0).abs() < 1e-9, "{spread:?}");
+}
+
 /// Its thermometer at the bore follows a hub of another thickness, so that it is never left in the air, where a film says nothing.
 #[test]
 fn a_thermometer_at_the_bore_stays_there() {
