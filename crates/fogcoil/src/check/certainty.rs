@@ -53,7 +53,8 @@ impl GyroNoise {
         (white > 0.0).then(|| Witness { ratio: sd / white, error: BY_NEIGHBOURS / (rows as f64).sqrt() })
     }
 
-    /// The Allan deviations that the model does not explain, where its white noise rules.
+    /// The Allan deviations that the model does not explain, where its white noise rules: up to the span over the number of slow courses that were taken off
+    /// with it, which take the power of as many half waves over the span.
     fn refuting(&self) -> impl Iterator<Item = Witness> {
         let model = &self.estimate.model;
         let span = if model.averaging > 0.0 { model.averaging } else { self.interval };
@@ -61,7 +62,8 @@ impl GyroNoise {
             let modelled = model.allan_deviation(point.tau, self.interval);
             let rules = model.white.powi(2) * span / point.tau > RULES * modelled.powi(2);
             let witness = Witness { ratio: point.deviation / modelled, error: (0.5 / point.freedom).sqrt() };
-            (rules && witness.ratio.ln().abs() > REFUTED * witness.error).then_some(witness)
+            let untouched = point.tau * self.taken_off_count() as f64 <= self.span;
+            (rules && untouched && witness.ratio.ln().abs() > REFUTED * witness.error).then_some(witness)
         };
         self.allan.iter().filter_map(of)
     }

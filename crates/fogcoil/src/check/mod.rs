@@ -66,6 +66,8 @@ pub struct GyroNoise {
     pub allan: Vec<AllanPoint>,
     /// Interval of the rows \[s\].
     pub interval: f64,
+    /// Time from the first row to the last \[s\].
+    pub span: f64,
     /// White noise of a sample from fourth differences of neighbours in the rate itself, less its lines \[deg/h\], and the number of rows: lags of a
     /// temperature bring the noise of the thermometer with them.
     pub neighbours: Option<(f64, usize)>,
@@ -114,6 +116,11 @@ impl GyroNoise {
     /// The floor of the fitted Allan deviation: its averaging time \[s\] and the deviation \[deg/h\]; `None` where it still falls.
     pub fn floor(&self) -> Option<(f64, f64)> {
         self.estimate.model.floor(self.ends(), self.interval)
+    }
+
+    /// Number of courses that were taken off: an offset, and of a temperature its lags and its change.
+    fn taken_off_count(&self) -> usize {
+        1 + self.driver.map_or(0, |_| self.lags.len() + 1)
     }
 
     /// The terms fitted beside it, in words.
@@ -189,7 +196,18 @@ fn gyro_noise(case: &RecordCase) -> Option<GyroNoise> {
     };
     let left_out = mask.iter().zip(&used).filter(|(there, used)| **there && !**used).count();
     let lines = lined::of(lines, (time, &rest), driver.zip(readings.as_deref()), temperature.as_deref());
-    Some(GyroNoise { estimate, driver, is_bound, lags, lines, left_out, allan, interval: instants.interval, neighbours })
+    Some(GyroNoise {
+        estimate,
+        driver,
+        is_bound,
+        lags,
+        lines,
+        left_out,
+        allan,
+        interval: instants.interval,
+        span: instants.span,
+        neighbours,
+    })
 }
 
 /// A recording without the lines of its rate that go on whatever the temperature does, which no temperature has, and these lines.

@@ -1,6 +1,6 @@
 //! Constants of the design and the instruments by the records, beside their prior values.
 
-use diagnosis::{Place, Posterior, Role};
+use diagnosis::{Fit, Hypothesis, Place, Posterior, Role};
 use files::{Note, Remark};
 use mechanisms::reading_of;
 use serde_json::{Value, json};
@@ -38,7 +38,8 @@ impl Constant {
 }
 
 impl Outcome<'_> {
-    /// Every constant of the design and number of an instrument that was free in the best hypothesis, as it is left.
+    /// Every constant of the design and number of an instrument that was free in the best hypothesis, as it is left. Where that is the design as drawn, the
+    /// instruments' numbers are those beside constants within their tolerances: they would take the place of what is usual of these.
     pub(super) fn constants(&self) -> Vec<Constant> {
         let of = |posterior: Posterior| {
             let kind = match posterior.place {
@@ -48,7 +49,14 @@ impl Outcome<'_> {
             };
             Some(Constant { posterior, kind })
         };
-        self.leading().posteriors(&self.gyro).into_iter().filter_map(of).collect()
+        let is_design = |fit: &Fit| fit.hypothesis.mechanisms.is_empty() && !fit.hypothesis.constants_free;
+        let recalibrated = self.diagnosis.candidates.iter().find(|candidate| {
+            let Hypothesis { mechanisms, constants_free } = &candidate.fit.hypothesis;
+            mechanisms.is_empty() && *constants_free && candidate.rival.is_none()
+        });
+        let beside = recalibrated.filter(|_| self.law().is_none() && is_design(self.leading()));
+        let all = beside.map_or(self.leading(), |candidate| &candidate.fit).posteriors(&self.gyro).into_iter().filter_map(of);
+        all.filter(|constant| beside.is_none() || constant.kind == "instrument").collect()
     }
 
     /// The constants that moved, and the instruments that the records tell to be off, the farthest first.

@@ -222,7 +222,8 @@ pub fn diagnose<'m>(
         }
     }
     let (verdict, taken_back) = (diagnosis.verdict, !withdrawn.is_empty());
-    let judged = holdouts.iter().filter(|_| verdict != Verdict::Unknown);
+    let by_law = composed.as_ref().is_some_and(|composed| composed.accepted);
+    let judged = holdouts.iter().filter(|_| verdict != Verdict::Unknown || by_law);
     notes.extend(judged.filter_map(|held| left_over(gyro, held, held.answer(verdict, taken_back))));
     // what stands beside a structure, or was taken back, is said to leave something
     let leading = Some(diagnosis.best()).filter(|best| verdict != Verdict::Unknown && best.rival.is_none() && !taken_back);

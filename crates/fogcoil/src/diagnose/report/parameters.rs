@@ -3,6 +3,7 @@
 use charts::{Axis, Cells, Figure, Panel, Series, Style, grid, significant};
 use diagnosis::{Estimate, Place, Posterior, Role, Verdict};
 use maud::{Markup, html};
+use recording::statistics::normal_quantile;
 
 use crate::diagnose::Outcome;
 use crate::units::parameter_unit;
@@ -48,8 +49,8 @@ impl Outcome<'_> {
                 _ => "Parameters (fitted)".into(),
             },
             description: "Probability density of each parameter after the recording, its 90 % interval, and its density before.".into(),
-            caption: "After the recording (normal in the coordinate in which the prior is), its 90 % interval, and the prior; each density \
-                      is scaled to its own maximum. If another mechanism is at work, none of this holds."
+            caption: "After the recording (to either side of the value normal in the coordinate in which the prior is, and as wide as the \
+                      90 % interval), that interval, and the prior; each density is scaled to its own maximum. If another mechanism is at work, none of this holds."
                 .into(),
             columns: 2,
             panels: fitted.iter().map(|p| panel(p, self.interval(p))).collect(),
@@ -104,11 +105,19 @@ fn central(p: &Posterior, u: f64, sd: f64) -> [f64; 2] {
     Posterior { u, sd, ..p.clone() }.ci90()
 }
 
+/// Middle and standard deviations to either side of two halves of normal densities of u, whose 90 % interval has these ends. The interval may be wider than
+/// that of the fit, and beside it: what is compared choice by choice has a density of its own for each.
+fn halves(p: &Posterior, ends: [f64; 2]) -> (f64, [f64; 2]) {
+    let [a, b] = ends.map(|end| p.prior.standard(end)).map(|u| if u.is_finite() { u } else { p.u });
+    let [low, high] = [a.min(b), a.max(b)];
+    let middle = if low < p.u && p.u < high { p.u } else { f64::midpoint(low, high) };
+    let reach = normal_quantile(0.95);
+    (middle, [middle - low, high - middle].map(|half| (half / reach).max(f64::MIN_POSITIVE)))
+}
+
 fn panel(p: &Posterior, [low, high]: [f64; 2]) -> Panel<'static> {
-    let reach = REACH * p.sd;
-    // the interval may reach beyond: what is compared choice by choice has a density of its own for each
-    let [from, to] = [low, high].map(|end| p.prior.standard(end)).map(|u| if u.is_finite() { u } else { p.u });
-    let (from, to) = (from.min(to).min(p.u - reach), from.max(to).max(p.u + reach));
+    let (middle, sds) = halves(p, [low, high]);
+    let [from, to] = [middle - REACH * sds[0], middle + REACH * sds[1]];
     let at = |k: usize| from + (to - from) * k as f64 / POINTS as f64;
     // du/dvalue, so that it is a density of the value
     let slope = |u: f64| {
@@ -123,8 +132,9 @@ fn panel(p: &Posterior, [low, high]: [f64; 2]) -> Panel<'static> {
         let points = (0..=POINTS).map(|k| middle + REACH * sd * (2.0 * k as f64 / POINTS as f64 - 1.0));
         points.map(|u| of(u) * slope(u)).fold(f64::MIN_POSITIVE, f64::max)
     };
-    let (after, before) = (density(p.u, p.sd), density(0.0, 1.0));
-    let posterior = scaled(&after, most(&after, p.u, p.sd));
+    let before = density(0.0, 1.0);
+    let after = |u: f64| density(middle, sds[usize::from(u > middle)])(u);
+    let posterior = scaled(&after, most(&after, middle, sds[0].max(sds[1])));
     let prior = scaled(&before, most(&before, 0.0, 1.0));
     let ends = |value: f64| Series::new("", Style::Fine(2), vec![(value, 0.0), (value, 1.0)]);
     Panel::lines(
@@ -142,6 +152,8 @@ fn panel(p: &Posterior, [low, high]: [f64; 2]) -> Panel<'static> {
 
 #[cfg(test)]
 mod tests {
+    use diagnosis::Prior;
+
     use super::*;
 
     #[test]
@@ -153,5 +165,22 @@ mod tests {
         assert_eq!(told("CW tail less CCW tail, beyond the drawing's [m]"), "CW tail less CCW tail, beyond the drawing's | m");
         assert_eq!(told("power_w"), "power_w | W");
         assert_eq!(told("alpha_r"), "alpha_r | 1");
+    }
+
+    #[test]
+    fn the_drawn_density_has_the_interval_that_is_told() {
+        let prior = Prior::LogNormal { median: 10.0, spread: 0.5 };
+        let p = Posterior { name: "a".into(), place: Place::Nominal(Role::Constant), record: None, prior, u: 0.4, sd: 0.1 };
+        let close = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6);
+        let of = |ends| {
+            let (middle, [low, high]) = halves(&p, ends);
+            [middle, low, high]
+        };
+        assert!(close(of(p.ci90()), [0.4, 0.1, 0.1]));
+        // wider, and to one side of the fit
+        let reach = normal_quantile(0.95);
+        let ends = |[low, high]: [f64; 2]| [low, high].map(|u| prior.value(u));
+        assert!(close(of(ends([0.4 - 0.3 * reach, 0.4 + 0.2 * reach])), [0.4, 0.3, 0.2]));
+        assert!(close(of(ends([1.0 - 0.2 * reach, 1.0 + 0.2 * reach])), [1.0, 0.2, 0.2]));
     }
 }
