@@ -61,8 +61,7 @@ impl Dimensions {
             && [LAYERS, PITCH, ODD, EVEN, START].iter().any(|key| is_varied(edits, key))
         {
             let [turns_odd_layers, turns_even_layers, layers] = [odd, even, layers].map(|count| count as usize);
-            let touching =
-                winding::Spec { turns_odd_layers, turns_even_layers, layers, pitch, start: 0.0, end: None, ..spec.clone() };
+            let touching = winding::Spec { turns_odd_layers, turns_even_layers, layers, pitch, start: 0.0, end: None, ..*spec };
             let end = number(START, to_mm(spec.start)) + touching.edges()[1] * spec.spacing() / spec.pitch;
             room.push((END.to_owned(), format!("{end}")));
             height = height.max(end + pitch);
