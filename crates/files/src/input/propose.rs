@@ -106,7 +106,7 @@ fn proposed(table: &Sniffed, options: &RecordOptions) -> Proposal {
         let found = match options.columns.iter().find(|(of, _)| *of == key) {
             Some((_, name)) => table.names.iter().position(|other| other == name).map(|column| Found::of(table, column, key)),
             // a count is no unit of a rate, and there is none that is usual
-            None => find(table, key).filter(|found| said(key) || !is_counts(&table.names[found.column])),
+            None => find(table, key).filter(|found| said(key) || found.unit.is_some() || !is_counts(&table.names[found.column])),
         };
         if let Some((day, time)) =
             two.filter(|(day, time)| found.as_ref().is_none_or(|found| [*day, *time].contains(&found.column)))

@@ -64,18 +64,18 @@ pub(super) fn of(
 fn goes_on(line: &Line, time: &[f64], rest: &[f64], course: Option<&[f64]>) -> bool {
     let (start, length) = (time[0], time[time.len() - 1] - time[0]);
     let quarter = |row: usize| (PARTS * (time[row] - start) / length).floor().min(PARTS - 1.0) as usize;
-    let goes_on = |rows: &[usize]| {
+    let is_same = |rows: &[usize]| {
         let left = line.left(rows.iter().map(|row| (&time[*row], &rest[*row])));
         left.is_some_and(|left| left < ALIKE * line.amplitude())
     };
     let used: Vec<usize> = (0..time.len()).filter(|row| rest[*row].is_finite()).collect();
     let mut parts = (0..PARTS as usize).map(|n| used.iter().copied().filter(|row| quarter(*row) == n).collect::<Vec<_>>());
-    parts.all(|rows| goes_on(&rows))
+    parts.all(|rows| is_same(&rows))
         && course.filter(|course| moves(course)).is_none_or(|course| {
             let paces = by_pace(time, course, &used);
             // where nothing rests a ripple over temperature may be a line: of one ramp, or of ramps to and fro
             let told = |rows: &&Vec<usize>| rows.len() as f64 * 2.0 * PARTS > used.len() as f64;
-            told(&&paces[RESTS]) && paces.iter().filter(told).all(|rows| goes_on(rows))
+            told(&&paces[RESTS]) && paces.iter().filter(told).all(|rows| is_same(rows))
         })
 }
 

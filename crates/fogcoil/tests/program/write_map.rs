@@ -329,4 +329,9 @@ fn days_of_a_spreadsheet_are_days_and_counts_have_no_unit() {
     assert!(written.contains("// rate: (column: \"gyro_counts\", unit: \"?\"),"), "{written}");
     let output = folder.run(&["check", "c.csv", "--write-map", "d.ron", "--scale", "rate=0.02"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    // what is called raw and has a unit is no count
+    let row = |_: usize, [t, c, s, r]: [f64; 4]| format!("{t},{c:.4},{s:.5},{r:.6}");
+    folder.write("u.csv", format!("time [s],chamber [degC],spool [degC],gyro_raw [deg/h]\r\n{}", lines(row)));
+    let output = folder.run(&["check", "u.csv", "--write-map"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }
