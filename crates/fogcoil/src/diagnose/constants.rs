@@ -39,7 +39,7 @@ impl Constant {
 
 impl Outcome<'_> {
     /// Every constant of the design and number of an instrument that was free in the best hypothesis, as it is left. Where that is the design as drawn, the
-    /// instruments' numbers are those beside constants within their tolerances: they would take the place of what is usual of these.
+    /// instruments' numbers are those beside constants within their tolerances: beside the drawing's own they would explain what such constants do.
     pub(super) fn constants(&self) -> Vec<Constant> {
         let of = |posterior: Posterior| {
             let kind = match posterior.place {
