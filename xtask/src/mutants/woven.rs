@@ -146,7 +146,7 @@ type Fault = (String, usize, String);
 /// The test programs, or the faults.
 fn built(copy: &Path, name: &str) -> Result<(Vec<Program>, Vec<Fault>), Failure> {
     let mut build = cargo();
-    build.args(["test", "--no-run", "--offline", "--quiet", "--package", name, "--lib", "--tests", "--message-format", "json"]);
+    build.args(["test", "--no-run", "--quiet", "--package", name, "--lib", "--tests", "--message-format", "json"]);
     build.current_dir(copy).env("CARGO_TARGET_DIR", root().join("target/mutants/build")).env("CARGO_INCREMENTAL", "1");
     let output = build.env("RUSTFLAGS", "--cap-lints=allow").stdin(Stdio::null()).stderr(Stdio::inherit()).output()?;
     let (mut programs, mut faults) = (Vec::new(), Vec::new());
