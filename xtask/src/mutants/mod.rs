@@ -144,7 +144,8 @@ impl Mutants {
         add: &mut impl FnMut(&Mutant, Outcome) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let scratch = root().join("target/mutants/reached");
-        let tests = Tests::measured(woven.programs.clone(), TOGETHER.contains(&name), self.jobs, &scratch)?;
+        let slowest = self.slowest.unwrap_or(f64::INFINITY);
+        let tests = Tests::measured(woven.programs.clone(), TOGETHER.contains(&name), self.jobs, slowest, &scratch)?;
         let mut functions = BTreeMap::<(&str, &str), Vec<usize>>::new();
         for &id in chosen {
             functions.entry((&woven.mutants[id].file, &woven.mutants[id].function)).or_default().push(id);
@@ -158,7 +159,7 @@ impl Mutants {
                     while let Some(ids) = queue.lock().ok().and_then(|mut queue| queue.next()) {
                         let mut killers = BTreeMap::new();
                         for id in ids {
-                            let outcome = tests.outcome(id, self.slowest.unwrap_or(f64::INFINITY), &mut killers);
+                            let outcome = tests.outcome(id, slowest, &mut killers);
                             if sender.send((id, outcome)).is_err() {
                                 return;
                             }

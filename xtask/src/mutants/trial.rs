@@ -18,6 +18,11 @@ use super::outcome::Outcome;
 const QUICK: f64 = 1.0;
 /// Least time that a trial may take before it is said never to end, in seconds, and the multiple of the unchanged program's.
 const PATIENCE: (f64, f64) = (20.0, 5.0);
+/// Least time for which a test is followed that is too slow for a trial, in seconds, and the multiple of the slowest that is not: it has reached by then
+/// nearly all that it reaches.
+const FOLLOWED: (f64, f64) = (20.0, 10.0);
+/// Time between two looks at a test that runs.
+const LOOK: Duration = Duration::from_millis(10);
 /// Most memory of a trial, KiB: a mutant may ask for ever more.
 const MEMORY: usize = 8 << 20;
 
@@ -34,7 +39,7 @@ struct Test {
     /// Of the programs.
     program: usize,
     name: String,
-    /// In seconds.
+    /// In seconds; of one that was followed for a while alone, that while.
     takes: f64,
     reaches: BTreeSet<usize>,
 }
@@ -65,13 +70,20 @@ impl Program {
 
 impl Tests {
     /// Runs every test of the programs alone, with no mutant at work, and keeps how long it takes and which it reaches; in the folder `scratch` for the next time.
+    /// A test of far more than `slowest` seconds, which no trial runs, is followed for a while.
     ///
     /// # Errors
     /// [`Failure`] if a test fails.
-    pub(super) fn measured(programs: Vec<Program>, together: bool, jobs: usize, scratch: &Path) -> Result<Self, Failure> {
+    pub(super) fn measured(
+        programs: Vec<Program>,
+        together: bool,
+        jobs: usize,
+        slowest: f64,
+        scratch: &Path,
+    ) -> Result<Self, Failure> {
         std::fs::create_dir_all(scratch).map_err(failed(scratch))?;
         let mut names = Vec::new();
-        let mut hash = Sha256::new();
+        let mut hash = Sha256::new_with_prefix(slowest.to_le_bytes());
         for (n, program) in programs.iter().enumerate() {
             hash.update(std::fs::read(&program.path).map_err(failed(&program.path))?);
             let ignored = program.listed(&["--ignored"])?;
@@ -87,7 +99,20 @@ impl Tests {
             let start = Instant::now();
             let mut command = programs[n].command();
             command.args([name.as_str(), "--exact", "--test-threads", "1"]).env("FOGCOIL_REACHED", &reached);
-            if !command.stdout(Stdio::null()).status()?.success() {
+            let mut child = command.stdout(Stdio::null()).spawn()?;
+            let followed = FOLLOWED.0.max(FOLLOWED.1 * slowest);
+            let ended = loop {
+                if let Some(status) = child.try_wait()? {
+                    break status.success();
+                }
+                if start.elapsed().as_secs_f64() > followed {
+                    child.kill()?;
+                    child.wait()?;
+                    break true;
+                }
+                std::thread::sleep(LOOK);
+            };
+            if !ended {
                 return Err(Failure(format!("{name} of {} fails unchanged", programs[n].path.display())));
             }
             let takes = start.elapsed().as_secs_f64();
