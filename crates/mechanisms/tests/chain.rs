@@ -632,3 +632,44 @@ fn the_chamber_s_instruments_act_as_in_a_model_made_anew() {
         }
     }
 }
+
+/// A mount of the drawing may couple better or worse than drawn; where it is drawn, none is sought besides.
+#[test]
+fn a_drawn_mount_follows_the_chain() {
+    let mut design = design();
+    let side = common::spool(&mut design).flanges[0].side;
+    design.heat.mounts.push(coil::Mount { side, conductance: 20.0 });
+    let gyro = of(Library::build(&design, CATALOGUE, &|_| ()).expect("library"), CATALOGUE);
+    assert!(gyro.find("axial-heat-path").is_none());
+    let nominal = anew(&design);
+    for factor in [0.2, 1.1, 6.0] {
+        let (changed, responses) = with_mechanism(&gyro, &design, "mount-conductance", &[factor], None);
+        assert_eq!(changed.heat.mounts, [coil::Mount { conductance: 20.0 * factor, ..design.heat.mounts[0] }]);
+        agree(&format!("mount {factor}"), &responses, &anew(&changed), &nominal, &[RATE, SPOOL]);
+    }
+}
+
+#[test]
+fn zz_scaling() {
+    let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    for n in gyro.nuisances() { eprintln!("{} {:?}", n.parameter.name, n.parameter.prior); }
+    let names = ["k_r", "specific heat of the coil", "spool conductivity", "spool specific heat", "conductivity of the surroundings", "specific heat of the surroundings"];
+    for e in [0.001, 0.01, 0.02] {
+        let base = gyro.respond(0, &middle, &[]).expect("response");
+        let mut all = middle.clone();
+        for name in names {
+            let at = gyro.nuisances().iter().position(|n| n.parameter.name == name).expect(name);
+            let mut one = middle.clone();
+            one[at] = middle[at] * (1.0 + e);
+            all[at] = one[at];
+            let with = gyro.respond(0, &one, &[]).expect("response");
+            eprintln!("{e} {name}: spool {:e} rate {:e}", rms(&minus(&with[SPOOL], &base[SPOOL])), rms(&minus(&with[RATE], &base[RATE])));
+        }
+        let with = gyro.respond(0, &all, &[]).expect("response");
+        eprintln!("{e} all: spool {:e} rate {:e}", rms(&minus(&with[SPOOL], &base[SPOOL])), rms(&minus(&with[RATE], &base[RATE])));
+        let about = gyro.about(&all, &[]).expect("model").expect("another");
+        let here = about.respond(0, &all, &[]).expect("response");
+        eprintln!("{e} about: spool {:e} rate {:e}", rms(&minus(&here[SPOOL], &base[SPOOL])), rms(&minus(&here[RATE], &base[RATE])));
+    }
+}
