@@ -9,6 +9,8 @@ use crate::record_to_bias::Prepared;
 use crate::series::lagged;
 use std::sync::Arc;
 
+/// Share of a constant's tolerance by which it may go before it follows its path of heat: over it the path bends by little more than a percent.
+const LINEAR: f64 = 0.25;
 /// Constants that are moved from where others are known.
 const FEW: usize = 2;
 
@@ -40,7 +42,8 @@ impl Gyro<'_> {
         let own = constant.parameter.of(self.library().unchanged()).unwrap_or(constant.drawn);
         for (value, sign) in [(to, 1.0), (from, -1.0)] {
             let by = value - own;
-            let along = by.powi(2) / (by.powi(2) + constant.tolerance.powi(2));
+            let far = (by / (LINEAR * constant.tolerance)).powi(4);
+            let along = far / (1.0 + far);
             let Change { parts, thermometer, .. } = self.chain.along(record, id, 0, (value / constant.drawn).ln());
             series.change(&Series { sensor: thermometer.unwrap_or_default(), parts }, sign * along);
             series.change(&record.slopes[k], sign * by * (1.0 - along));
