@@ -5,14 +5,18 @@ use std::fs;
 use std::path::Path;
 
 use fogcoil::cache::Cache;
-use fogcoil::comparison::Comparison;
+use fogcoil::comparison::{Comparison, Entry};
 use fogcoil::explain::{Explained, Explanation, Reach, explain};
 use fogcoil::glossary::mechanisms;
 use fogcoil::input;
 
+use coil::Mount;
+
 use proof::{Failure, files};
 
 const COIL: &str = "fixtures/coil-reference.ron";
+/// Of the mount where one is drawn, W/(m² K).
+const CONDUCTANCE: f64 = 20.0;
 const PAGES: &str = "docs/mechanisms";
 /// Their numbers, which `fogcoil explain ID` prints.
 const MEASURED: &str = "crates/fogcoil/src/glossary/measured.md";
@@ -27,15 +31,28 @@ pub(crate) fn run() -> Result<bool, Failure> {
     let case = input::read_coil(COIL.as_ref())?;
     let comparison = Comparison::measure(&case, &Cache::of_user(), &|task| eprintln!("{task}"))?;
     let on_request = Comparison::on_request(&case, &Cache::of_user(), &|task| eprintln!("{task}"))?;
+    // what acts on a mount that is drawn
+    let mut mounted = case.clone();
+    let sides = case.design.spool.iter().flat_map(|spool| &spool.flanges).map(|flange| flange.side);
+    mounted.design.heat.mounts.extend(sides.map(|side| Mount { side, conductance: CONDUCTANCE }));
+    let drawn = Comparison::measure(&mounted, &Cache::of_user(), &|task| eprintln!("{task}"))?;
+    let is_new = |entry: &Entry| comparison.entries.iter().all(|known| known.id != entry.id);
     fs::create_dir_all(PICTURES)?;
     let pictures = Path::new(PICTURES);
     let mut measured = String::new();
-    let of = |comparison| std::iter::repeat(comparison);
-    let entries = comparison.entries.iter().zip(of(&comparison)).chain(on_request.entries.iter().zip(of(&on_request)));
-    for (entry, comparison) in entries {
+    let of = |all| move |entry| (entry, all);
+    let of_mount = drawn.entries.iter().filter(|entry| is_new(entry)).map(of(&drawn));
+    let entries =
+        comparison.entries.iter().map(of(&comparison)).chain(of_mount).chain(on_request.entries.iter().map(of(&on_request)));
+    let mut count = 0;
+    for (entry, all) in entries {
         let file = format!("{}.svg", entry.id);
-        fs::write(pictures.join(&file), comparison.signature(entry))?;
-        let numbers = comparison.page(entry, &format!("../pictures/mechanisms/{file}"));
+        fs::write(pictures.join(&file), all.signature(entry))?;
+        let mut numbers = all.page(entry, &format!("../pictures/mechanisms/{file}"));
+        count += 1;
+        if std::ptr::eq(all, &raw const drawn) {
+            let _ = write!(numbers, "\nThe reference coil has a mount of {CONDUCTANCE} W/(m² K) here.\n");
+        }
         let _ = write!(measured, "# {}\n\n{}\n\n", entry.id, numbers.trim());
         let mechanism =
             mechanisms().find(|m| m.id == entry.id).ok_or_else(|| Failure(format!("{}: no such mechanism", entry.id)))?;
@@ -49,7 +66,7 @@ pub(crate) fn run() -> Result<bool, Failure> {
     let coils = COILS.map(|measured| explain(&case, measured, true, &Cache::of_user(), &|task| eprintln!("{measured}: {task}")));
     let [a, b, c] = coils;
     rewrite(&Path::new(PAGES).join("paper-coils.md"), &coils_text(&[a?, b?, c?]))?;
-    println!("{PAGES} and {PICTURES}: {} mechanisms", comparison.entries.len() + on_request.entries.len());
+    println!("{PAGES} and {PICTURES}: {} mechanisms", count);
     Ok(true)
 }
 

@@ -288,8 +288,8 @@ remarks! {
         "Mechanisms that act beyond a temperature, or with it, cannot show.",
         "Test over the range of use; `fogcoil recommend` proposes a programme.";
     NotOffered "mechanism-not-offered":
-        "The design leaves a mechanism no place: no flange, no bond that holds, a film or a mount of its own, constants that are not those of silica in a polymer.",
-        "It is not among the explanations, and its effect would be unknown.",
+        "The design leaves a mechanism no place: no flange, no bond that holds, a film or a heater of its own, constants that are not those of silica in a polymer.",
+        "It is not among the explanations: its effect would be unknown, or taken for that of another which resembles it.",
         "Nothing, if the drawing is right; else put the part into the coil file.";
     NoThermometer "no-thermometer":
         "A recording has no spool_c.",

@@ -632,3 +632,49 @@ fn the_chamber_s_instruments_act_as_in_a_model_made_anew() {
         }
     }
 }
+
+/// A mount of the drawing may couple better or worse than drawn; where it is drawn, none is sought besides.
+#[test]
+fn a_drawn_mount_follows_the_chain() {
+    let mut design = design();
+    let side = common::spool(&mut design).flanges[0].side;
+    design.heat.mounts.push(coil::Mount { side, conductance: 20.0 });
+    let gyro = of(Library::build(&design, CATALOGUE, &|_| ()).expect("library"), CATALOGUE);
+    assert!(gyro.find("axial-heat-path").is_none());
+    let nominal = anew(&design);
+    for factor in [0.2, 1.1, 6.0] {
+        let (changed, responses) = with_mechanism(&gyro, &design, "mount-conductance", &[factor], None);
+        assert_eq!(changed.heat.mounts, [coil::Mount { conductance: 20.0 * factor, ..design.heat.mounts[0] }]);
+        agree(&format!("mount {factor}"), &responses, &anew(&changed), &nominal, &[RATE, SPOOL]);
+    }
+}
+
+/// Temperatures stay where all conductivities and heat capacities change alike: so they do by the model, to first order beside the values that it is made
+/// about, though a path of heat follows one of these constants. Else intervals of all of them come out too narrow.
+#[test]
+fn exact_what_conducts_and_what_stores_change_alike_without_a_trace() {
+    const AIR: &str = "conductivity of the surroundings";
+    let alike = [
+        "k_r",
+        "specific heat of the coil",
+        "spool conductivity",
+        "spool specific heat",
+        AIR,
+        "specific heat of the surroundings",
+    ];
+    let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let place = |name: &str| gyro.nuisances().iter().position(|n| n.parameter.name == name).expect("a constant");
+    let drawn: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let mut here = drawn.clone();
+    here[place(AIR)] *= 1.008;
+    let slope = |names: &[&str]| {
+        let [low, high] = [-1e-3, 1e-3].map(|by| {
+            let mut u = here.clone();
+            names.iter().for_each(|name| u[place(name)] += by * drawn[place(name)]);
+            gyro.respond(0, &u, &[]).expect("response").swap_remove(SPOOL)
+        });
+        rms(&minus(&high, &low))
+    };
+    let [all, one] = [slope(&alike), slope(&[AIR])];
+    assert!(all < 1e-3 * one, "{all:e} of {one:e}");
+}

@@ -151,8 +151,11 @@ pub fn diagnose<'m>(
                 .at(&case.file),
         );
     }
-    let offered = |mechanism: &&&dyn Mechanism| drawn.find(mechanism.facts().id).is_none();
-    let missing: Vec<String> = mechanisms.iter().filter(offered).map(|mechanism| mechanism.facts().id.to_owned()).collect();
+    let is_offered = |mechanism: &dyn Mechanism| drawn.find(mechanism.facts().id).is_some();
+    // of two that share a place, one for a part that is drawn and one for a part that is not, either is enough
+    let taken: BTreeSet<&str> = mechanisms.iter().filter(|m| is_offered(**m)).map(|m| m.facts().place).collect();
+    let has_no_place = |mechanism: &&&dyn Mechanism| !is_offered(**mechanism) && !taken.contains(mechanism.facts().place);
+    let missing: Vec<String> = mechanisms.iter().filter(has_no_place).map(|mechanism| mechanism.facts().id.to_owned()).collect();
     if !missing.is_empty() {
         let message =
             format!("not offered, as the design, or what the meta files tell, leaves no place for it: {}", missing.join(", "));

@@ -463,17 +463,23 @@ impl Outcome<'_> {
     fn suffices(&self, statement: &str, surely: &str) -> String {
         let [none, recalibrate, ..] = self.diagnosis.verdicts();
         let probability = none + recalibrate;
+        // as the table has them, where its first row says another number
+        let parts = if none.min(recalibrate) < 0.05 {
+            String::new()
+        } else {
+            format!(": {none:.2} as drawn, {recalibrate:.2} within tolerances")
+        };
         let sentence = capital(statement);
         if self.is_left_over() {
             format!("{sentence} for the fitted records, but a record that was held out is left with far more than noise.")
         } else if probability < 0.5 {
             format!(
-                "It is open whether {statement} (probability {probability:.2}): no other explanation is strong enough to be named."
+                "It is open whether {statement} (probability {probability:.2}{parts}): no other explanation is strong enough to be named."
             )
         } else if !self.suffices_surely() {
-            format!("{sentence}, but not surely (probability {probability:.2}).")
+            format!("{sentence}, but not surely (probability {probability:.2}{parts}).")
         } else {
-            format!("{sentence} (probability {probability:.2}): {surely}.")
+            format!("{sentence} (probability {probability:.2}{parts}): {surely}.")
         }
     }
 

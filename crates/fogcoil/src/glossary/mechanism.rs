@@ -33,11 +33,11 @@ const BESIDE: [Subject; 2] = [
         id: "recalibrate",
         title: "The design as it is, its constants re-estimated",
         stage: None,
-        equation: "The constants of the design times factors that are fitted; beforehand 1 ± 10 % (E_r and G together; ∂n/∂T), 5 % (conductivity of the surroundings),\n\
-                   3 % (E_z, alpha_z, alpha_r) and 2 % (expansion of the spool).",
+        equation: "The constants of the design times factors that are fitted, each within its tolerance; `fogcoil sensitivity COIL.ron --all` lists them with\n\
+                   their tolerances.",
         place: "None of its own: nothing is added to the design, its numbers were off.",
         signature: "A gain on parts of the bias, and another time scale of the heat flow: the same at all temperatures and in every run.",
-        source: "Tolerances of the coil file; the widths above where it names none.",
+        source: "Tolerances of the coil file; the usual ones where it names none.",
     },
     Subject {
         id: "nominal",

@@ -36,7 +36,10 @@ fn why(id: &str, design: &Design) -> String {
             "it acts at a flange, and the spool has none (spool.flanges)".to_owned()
         }
         "self-heating" => "it has heaters of its own (heat.heaters)".to_owned(),
-        "axial-heat-path" if !design.heat.mounts.is_empty() => "it has mounts of its own (heat.mounts)".to_owned(),
+        "axial-heat-path" if !design.heat.mounts.is_empty() => {
+            "it has mounts of its own (heat.mounts), which `mount-conductance` changes".to_owned()
+        }
+        "mount-conductance" => "it has no mount (heat.mounts); one that is not drawn is `axial-heat-path`".to_owned(),
         "ratcheting" => "it is without a spool".to_owned(),
         "adhesive-content" => "its constants are not those of silica in a polymer (coil.material)".to_owned(),
         "scale-factor-drift" | "modulator-reset" => "it needs Earth's rate, which no programme tells".to_owned(),

@@ -22,6 +22,7 @@ catalogue! {
     interface_resistance INTERFACE_RESISTANCE
     air_path AIR_PATH
     axial_heat_path AXIAL_HEAT_PATH
+    mount_conductance MOUNT_CONDUCTANCE
     self_heating SELF_HEATING
     sensor_lag SENSOR_LAG
     chamber_lag CHAMBER_LAG

@@ -9,6 +9,8 @@ use crate::record_to_bias::Prepared;
 use crate::series::lagged;
 use std::sync::Arc;
 
+/// Share of a constant's tolerance by which it may go before it follows its path of heat: over it the path bends by little more than a percent.
+const LINEAR: f64 = 0.25;
 /// Constants that are moved from where others are known.
 const FEW: usize = 2;
 
@@ -27,18 +29,24 @@ impl Gyro<'_> {
         way.map(|told| self.library().constants[k].value(told))
     }
 
-    /// Adds what a constant changes that a path of heat follows, on its way from one value to another, as told.
+    /// Adds what a constant changes that a path of heat follows, on its way from one value to another, as told. Near the value that the model is made about
+    /// it is linear, as all other constants are: what they change together, each by as much as the others make up for, stays nothing there.
     fn move_along_path(&self, record: &Prepared, k: usize, way: [f64; 2], series: &mut Series) {
         let [from, to] = self.values(k, way);
         let Some((_, id)) = self.factored.iter().find(|(place, _)| *place == k) else { return };
+        let constant = &self.library().constants[k];
         // rounding is no change
-        if (to - from).abs() <= 1e-9 * self.library().constants[k].tolerance {
+        if (to - from).abs() <= 1e-9 * constant.tolerance {
             return;
         }
-        let drawn = self.library().constants[k].drawn;
+        let own = constant.parameter.of(self.library().unchanged()).unwrap_or(constant.drawn);
         for (value, sign) in [(to, 1.0), (from, -1.0)] {
-            let Change { parts, thermometer, .. } = self.chain.along(record, id, 0, (value / drawn).ln());
-            series.change(&Series { sensor: thermometer.unwrap_or_default(), parts }, sign);
+            let by = value - own;
+            let far = (by / (LINEAR * constant.tolerance)).powi(4);
+            let along = far / (1.0 + far);
+            let Change { parts, thermometer, .. } = self.chain.along(record, id, 0, (value / constant.drawn).ln());
+            series.change(&Series { sensor: thermometer.unwrap_or_default(), parts }, sign * along);
+            series.change(&record.slopes[k], sign * by * (1.0 - along));
         }
     }
 
