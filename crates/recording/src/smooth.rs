@@ -1,6 +1,7 @@
 //! A measured course without its sensor's noise.
 
 use crate::Error;
+use crate::condition::span;
 use crate::series::{check_series, median_interval};
 use nalgebra::{Matrix3, Vector3};
 
@@ -19,6 +20,8 @@ const NEAR: f64 = 1.5;
 const CLOSE: f64 = 0.1;
 /// Variance of an unknown start over the noise's.
 const UNKNOWN: f64 = 1e6;
+/// Share of the range below which a step is what rounding leaves of one value: no course is smoothed as if it were better.
+const ROUNDING: f64 = 1e-7;
 /// Fewest rows that can be smoothed.
 pub const FEWEST_ROWS: usize = 8;
 
@@ -47,8 +50,7 @@ pub fn resolution(values: &[f64]) -> f64 {
         return 0.0;
     }
     let range = sorted[sorted.len() - 1] - sorted[0];
-    // what rounding leaves of one value is no step
-    let rounding = 1e-7 * range;
+    let rounding = ROUNDING * range;
     let steps = sorted.windows(2).map(|w| w[1] - w[0]).filter(|step| *step > rounding);
     let least = steps.fold(f64::INFINITY, f64::min);
     let moves: Vec<f64> = values.windows(2).map(|w| w[1] - w[0]).collect();
@@ -81,6 +83,7 @@ pub fn smoothed(time: &[f64], values: &[f64], digit: Option<f64>) -> Result<Smoo
     let unit = median_interval(time).unwrap_or(1.0);
     let steps: Vec<f64> = time.windows(2).map(|t| (t[1] - t[0]) / unit).collect();
     let step = digit.unwrap_or_else(|| resolution(&values.iter().copied().filter(|value| !value.is_nan()).collect::<Vec<_>>()));
+    let step = step.max(ROUNDING * span(values));
     let least = step * step * (1.0 + 1.0 / 12.0);
     let behind = |lag: f64| Readings { values, moves: moves(&steps, lag), least };
     // weights have many optima: from even ones, and from those of the time constant before
@@ -433,6 +436,22 @@ mod tests {
         let smooth = smoothed(&time, &course, None).unwrap();
         let off = smooth.values.iter().zip(&course).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
         assert!(off < 1e-3, "{off}");
+    }
+
+    /// A course without noise has no last digit, and stays what it is.
+    #[test]
+    fn exact_readings_stay() {
+        let corners = [(0.0, -40.0), (3600.0, -40.0), (9600.0, 60.0), (13_200.0, 60.0), (19_200.0, -40.0), (22_800.0, -40.0)];
+        let at = |t: f64| {
+            let pair = corners.windows(2).find(|w| t <= w[1].0).expect("within");
+            pair[0].1 + (pair[1].1 - pair[0].1) * (t - pair[0].0) / (pair[1].0 - pair[0].0)
+        };
+        for interval in [30.0, 60.0] {
+            let time: Vec<f64> = (1..(22_800.0 / interval) as usize).map(|n| interval * n as f64).collect();
+            let course: Vec<f64> = time.iter().map(|t| at(*t)).collect();
+            let smooth = smoothed(&time, &course, None).unwrap();
+            assert!(smooth.values.iter().zip(&course).all(|(a, b)| (a - b).abs() < 1e-5), "{interval} s: {}", smooth.noise);
+        }
     }
 
     /// Half a kelvin a row is not the last digit of a display; a digit that a slow course is rounded to is.

@@ -213,6 +213,35 @@ fn intervals_hold_the_truth_of_a_response_that_sets_in_late() {
     }
 }
 
+/// A programme as a chamber follows it that lags by so much \[s\].
+fn followed(programme: &Programme, lag: f64) -> Vec<(f64, f64)> {
+    let time: Vec<f64> = (0..=(programme[programme.len() - 1].0 / 30.0) as usize).map(|n| 30.0 * n as f64).collect();
+    let exact: Vec<f64> = time.iter().map(|t| temperature(programme, *t)).collect();
+    let behind = lagging(&time, &exact, lag);
+    time.iter().zip(exact.iter().zip(behind)).map(|(t, (exact, behind))| (*t, exact - behind)).collect()
+}
+
+/// A unit that follows its chamber fast answers a corner with several times what it settles at. Noise of the chamber's thermometer must neither take the fast
+/// part off nor put a slow one in its place, and hardly widens the intervals.
+#[test]
+fn noise_of_the_thermometer_is_no_sensitivity() {
+    let (programme, truth) = (followed(UP_AND_DOWN, 80.0), 14.0);
+    for reading in [0.012, 0.1] {
+        for seed in 0..4 {
+            let mut random = Random::new(seed + 55_000);
+            let lags = [30.0, 100.0].map(|least| least * 2.0_f64.powf(random.uniform()));
+            let fast = truth * (6.0 + 6.0 * random.uniform());
+            let amounts = [fast, truth - fast];
+            let unit = Unit { lags, heating: amounts, cooling: amounts, rest: [0.0; 2], hysteresis: 0.0 };
+            let found = Record::of(&unit, &programme, &NoiseModel::white(0.02, 30.0), reading, seed).respond().unwrap();
+            let sensitivity = found.sensitivity.unwrap_or_else(|absent| panic!("{reading}: {absent}"));
+            println!("{reading} K: {sensitivity:?}");
+            assert!((sensitivity.value - truth).abs() < 2.576 * sensitivity.sd, "{reading}: {sensitivity:?}");
+            assert!(sensitivity.sd < 0.12 * truth, "{reading}: {sensitivity:?}");
+        }
+    }
+}
+
 /// Time constants longer than the estimator's: nothing is told, or the interval holds what it does not see settle.
 #[test]
 fn intervals_hold_the_truth_of_a_slow_part() {
@@ -278,6 +307,24 @@ fn a_thermometer_at_the_seat_tells_how_slowly_a_body_settles() {
             }
         }
     }
+}
+
+/// What a quiet channel shows beside the time constants of the sets is an error of these where the thermometer at the seat shows that the unit settles.
+#[test]
+fn a_unit_that_is_seen_to_settle_is_told() {
+    let (lags, amounts) = ([45.0, 160.0], [224.0, -210.0]);
+    let unit = Unit { lags, heating: amounts, cooling: amounts, rest: [0.0; 2], hysteresis: 0.0 };
+    let record = Record::of(&unit, UP_AND_DOWN, &NoiseModel::white(0.0003, 30.0), 0.0, 0);
+    let mut random = Random::new(500);
+    let behind = lagging(&record.time, &record.temperature, 160.0);
+    let seat: Vec<f64> = record.temperature.iter().zip(behind).map(|(t, behind)| t - behind + 0.01 * random.normal()).collect();
+    let found = record.respond_over(&seat).unwrap();
+    for (told, truth) in [(found.sensitivity, 14.0), (found.heating, 14.0), (found.cooling, 14.0), (found.asymmetry, 0.0)] {
+        let told = told.unwrap_or_else(|absent| panic!("{absent}"));
+        assert!((told.value - truth).abs() < 2.576 * told.sd, "{told:?}");
+    }
+    let span = found.span.unwrap();
+    assert!(span.value < 2.576 * span.sd, "{span:?}");
 }
 
 #[test]

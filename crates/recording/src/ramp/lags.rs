@@ -9,20 +9,17 @@ const MOST: usize = 8;
 const SHORTEST: f64 = 0.25;
 /// Fewest rows of a ramp.
 const ROWS_OF_RAMP: f64 = 6.0;
-/// Largest noise of a lagging rate beside the ramps': what it takes off an amount is the square of it.
-const NOISY: f64 = 0.1;
 
-/// Sets of lags \[s\], the longest first, where a response is seen to settle for `settling` \[s\] at ramps of about `rate` \[K/s\]; `noise` is a
-/// reading's \[K\].
+/// Sets of lags \[s\], the longest first, where a response is seen to settle for `settling` \[s\], rows being `interval` apart \[s\].
 ///
 /// The second set lies between the lags of the first: what a response of other time constants makes of one set and of the other tells how far off
 /// a set may be.
-pub(super) fn sets(settling: f64, rate: f64, noise: f64, interval: f64) -> Result<Vec<Vec<f64>>, Absent> {
+pub(super) fn sets(settling: f64, interval: f64) -> Result<Vec<Vec<f64>>, Absent> {
     let longest = settling / SETTLED;
     if settling < ROWS_OF_RAMP * interval {
         return Err(Absent::Fast { duration: settling, rows: ROWS_OF_RAMP });
     }
-    let shortest = (SHORTEST * interval).max(noise / (NOISY * rate));
+    let shortest = SHORTEST * interval;
     let set = |first: f64| -> Vec<f64> {
         let all = (0..MOST as i32).map(|n| first / RATIO.powi(n));
         all.enumerate().filter(|(n, lag)| *n == 0 || *lag >= shortest).map(|(_, lag)| lag).collect()

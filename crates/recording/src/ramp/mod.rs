@@ -8,7 +8,8 @@
 //! being taken to differ by no more than a few sensitivities, it is told by these. What a time constant twice as long as the longest changes beyond what noise
 //! explains is an error, too; where that is more than a tenth of the sensitivity, none is told: the unit settles more slowly than the record lets it. Noise hides
 //! such a change, and a bias over temperature takes its place. Where the seat is another temperature than the one that drives, its own course tells how slowly
-//! the body settles, whatever the channel's noise: the time constants then begin no lower than that. Rates upwards and
+//! the body settles, whatever the channel's noise: the time constants then begin no lower than that; of a body that settles within the ramps and rests, what
+//! longer ones change counts as an error however large. Rates upwards and
 //! downwards have amounts of their own where the record has both: **heating** and **cooling**, the sensitivity being their mean. Beside them
 //! stand an offset, a parabola in the temperature (**span**: what it changes by over the record's range), and what settles from the state in which the
 //! record begins.
@@ -16,6 +17,10 @@
 //! A **hysteresis** is sought beside all lags up to a third of the longest rest, in one set: a response that hardly begins in a short ramp is seen at the rest
 //! behind it, where what is left of it depends on the side from which the rest was reached. What longer ones change of it counts as an error; if that is more than noise
 //! explains, none is told.
+//!
+//! The temperature is freed of its thermometer's noise first ([`crate::smooth`]). Beside noisy readings the amounts of short time constants come out too
+//! small, and those of long ones make up for them; beside the course that the readings make likely no amount does (regression calibration: Carroll et
+//! al. 2006).
 //!
 //! Noise is identified beside these columns by restricted likelihood, and amounts and errors are those of generalised least squares under every
 //! noise model that the likelihood does not exclude, weighed by it: coloured noise widens the intervals. Offsets, the origin of time and the unit of
@@ -37,6 +42,7 @@ pub use input::Input;
 
 use crate::Error;
 use crate::noise::NoiseEstimate;
+use crate::smooth::{resolution, smoothed};
 use branches::Course;
 use design::{Design, Weights};
 use model::{Model, Observed, over};
@@ -90,6 +96,11 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     let step = input.reading[1];
     let noise = input.reading[0].max(step / 12.0_f64.sqrt()).max(LEAST_NOISE * range);
     let threshold = branches::threshold(range, noise, step);
+    let seated = input.seat != input.drive;
+    // rounding to a last digit makes noise: of a course with less, even steps are no digit
+    let digit = resolution(input.drive).min(12.0_f64.sqrt() * input.reading[0]);
+    let free = smoothed(input.time, input.drive, Some(digit))?.values;
+    let input = &Input { drive: &free, seat: if seated { input.seat } else { &free }, ..*input };
     let course = Course::new(input.time, input.drive, threshold);
     let [heats, cools] = [Direction::Heating, Direction::Cooling].map(|direction| course.ramps(direction, threshold));
     let Some(watch) = course.watched().filter(|_| heats || cools) else {
@@ -97,27 +108,32 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     };
     let observed = Observed { time: input.time, values: input.values, mask: input.mask, averaging: input.averaging };
     let design = |lags: &[f64]| Design::new(input, &course, lags, heats, cools);
-    let sets_of = |settling: f64| {
-        let rate = root_mean_square(&design::lagging_rate(input.time, input.drive, settling, input.interval));
-        lags::sets(settling, rate, noise, input.interval)
-    };
+    let sets_of = |settling: f64| lags::sets(settling, input.interval);
     let sets = sets_of(watch.settling)?;
     // a seat that is not the drive tells how slowly the body settles
-    let seated = input.seat != input.drive;
     let slowest = if seated { settling::slowest(input, sets[0][0], watch.rest)? } else { Slowest::Of(0.0) };
     let (ramps, watch) = (watch, watch.beside(slowest));
     let sets = if watch.short == Short::Seat { sets_of(watch.settling)? } else { sets };
     let models: Vec<Model> = sets.iter().map(|lags| Model::new(design(lags), observed)).collect::<Result<_, _>>()?;
-    let slow = match slowest {
-        Slowest::Of(_) => slow(&models, &Model::new(design(&lags::slower(&sets[0])), observed)?),
-        Slowest::Beyond => Slow::Unsettled,
+    let slower = match slowest {
+        Slowest::Of(_) => Some(Model::new(design(&lags::slower(&sets[0])), observed)?),
+        Slowest::Beyond => None,
     };
-    let not_settled = || Err(Absent::Unsettled(watch));
-    let found = |of: Sum| over(&models, |model| model.told(&of(&model.design)?, noise));
+    let slow = slower.as_ref().map_or(Slow::Unsettled, |slower| slow(&models, slower));
+    // what longer lags change of a unit that is seen to settle is an error of the sets
+    let settles = seated && watch.short != Short::Seat;
+    let changed = |of: &dyn Fn(&[Model]) -> Result<Estimate, Absent>| {
+        let found = of(&models)?;
+        let slower = slower.as_ref().filter(|_| settles).ok_or(Absent::Unsettled(watch))?;
+        Ok::<_, Absent>(Estimate { sd: found.sd.hypot(of(std::slice::from_ref(slower))?.value - found.value), ..found })
+    };
+    let found = |models: &[Model], of: Sum| over(models, |model| model.told(&of(&model.design)?, noise));
     let coarse = |of: Sum| {
-        let found = found(of)?;
-        let Slow::By(change) = slow else { return not_settled() };
-        Ok(Estimate { sd: found.sd.hypot(change).hypot(BETWEEN * found.value), ..found })
+        let found = match slow {
+            Slow::By(change) => found(&models, of).map(|found| Estimate { sd: found.sd.hypot(change), ..found })?,
+            Slow::Unsettled => changed(&|models| found(models, of))?,
+        };
+        Ok::<_, Absent>(Estimate { sd: found.sd.hypot(BETWEEN * found.value), ..found })
     };
     let finer = finer(
         &models,
@@ -139,13 +155,16 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     // so many amounts may follow what is no lag, as a hysteresis: they then contradict the sets
     let both = |of: Sum| Some((fine(of).ok()?, coarse(of).ok()?));
     let agrees = |of: &Sum| both(*of).is_none_or(|(fine, coarse)| (fine.value - coarse.value).abs() < AGREES * coarse.sd);
-    let is_finer = both(figures[0]).is_some_and(|(fine, coarse)| fine.sd < WORTH * coarse.sd) && figures.iter().all(agrees);
+    let is_finer = matches!(slow, Slow::By(_))
+        && both(figures[0]).is_some_and(|(fine, coarse)| fine.sd < WORTH * coarse.sd)
+        && figures.iter().all(agrees);
     let told = |of: Sum| {
         let coarse = coarse(of)?;
         Ok(if is_finer { fine(of).unwrap_or(coarse) } else { coarse })
     };
-    // the change is that of the sensitivity, and no error of a difference, or of a bias at rest
-    let settled = |found: Estimate| if matches!(slow, Slow::By(0.0)) { Ok(found) } else { not_settled() };
+    // the change is that of the sensitivity, and no error of a difference, or of a bias at rest: those have changes of their own
+    let settled =
+        |of: &dyn Fn(&[Model]) -> Result<Estimate, Absent>| if matches!(slow, Slow::By(0.0)) { of(&models) } else { changed(of) };
     let hysteresis = || {
         models.iter().try_for_each(|model| hysteresis::rests(&model.design, &course, observed, input.drive, input.interval))?;
         // a response that hardly begins in a ramp is still seen at the rest behind it
@@ -175,9 +194,9 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     Ok(Response {
         heating: part(figures[1]),
         cooling: part(figures[2]),
-        asymmetry: if is_finer { fine(&Design::asymmetry) } else { found(&Design::asymmetry).and_then(settled) },
+        asymmetry: if is_finer { fine(&Design::asymmetry) } else { settled(&|models| found(models, &Design::asymmetry)) },
         hysteresis: hysteresis(),
-        span: apart.clone().and_then(|()| span(&models)).and_then(settled),
+        span: apart.clone().and_then(|()| settled(&span)),
         // what a slow response and a bias over temperature make together is known where they are not told apart
         peak: if watch.short == Short::Seat { Ok(()) } else { apart }.and_then(|()| peak(&models, input)),
         sensitivity,
@@ -189,7 +208,7 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
 /// Change of the sensitivity by lags twice as long.
 #[derive(Debug, Clone, Copy)]
 enum Slow {
-    /// By a share of it that is no error any more: the record does not let the unit settle.
+    /// By a share of it that is no error any more: the record does not let the unit settle, unless it is seen to.
     Unsettled,
     /// By so much, beyond what noise explains, which counts as an error; 0 of less.
     By(f64),
@@ -269,17 +288,12 @@ fn range(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::NEG_INFINITY, f64::max) - least
 }
 
-fn root_mean_square(values: &[f64]) -> f64 {
-    (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn exact_sizes() {
-        assert_eq!((root_mean_square(&[3.0, -4.0, 0.0, 0.0]), root_mean_square(&[])), (2.5, 0.0));
         assert_eq!(range(&[3.0, -4.0, 1.0]), 7.0);
     }
 
