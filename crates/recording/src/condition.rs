@@ -107,7 +107,7 @@ fn between(time: &[f64], values: &[f64]) -> Option<Vec<f64>> {
     let mut filled = values.to_vec();
     for pair in known.windows(2).filter(|pair| (pair[1] - pair[0]) as f64 <= 2.0 * usual) {
         let ends = [pair[0], pair[1]];
-        (ends[0] + 1..ends[1]).for_each(|n| filled[n] = on_line(time, values, ends, n));
+        (ends[0]..ends[1]).for_each(|n| filled[n] = on_line(time, values, ends, n));
     }
     Some(filled)
 }
@@ -228,5 +228,22 @@ mod tests {
     fn what_a_gap_cuts_short_is_no_group() {
         assert_eq!(groups(11, 3, |row| row != 5), [0..3, 5..8, 8..11]);
         assert_eq!(groups(2, 3, |_| true), []);
+    }
+
+    #[test]
+    fn exact_readings_are_joined_over_twice_their_usual_distance_and_no_farther() {
+        let of = |rows: &[u32]| {
+            let time: Vec<f64> = (0..=40).map(f64::from).collect();
+            let values: Vec<f64> = (0..=40).map(|n| if rows.contains(&n) { f64::from(n * n) } else { f64::NAN }).collect();
+            between(&time, &values)
+        };
+        // every third row, then one six rows on, and one seven
+        let joined = of(&[0, 3, 6, 9, 12, 18, 25]).expect("lines");
+        let there: Vec<usize> = (0..joined.len()).filter(|&n| joined[n].is_finite()).collect();
+        assert_eq!(there, (0..=18).chain([25]).collect::<Vec<_>>());
+        // 12² + 2 (18² − 12²)/6, and the readings themselves
+        assert_eq!([joined[3], joined[14], joined[18], joined[25]], [9.0, 204.0, 324.0, 625.0]);
+        // usually one in each row: what is missing is no line
+        assert_eq!(of(&[0, 1, 2, 3, 4, 6, 7]), None);
     }
 }

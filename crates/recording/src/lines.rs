@@ -53,7 +53,7 @@ impl Line {
     pub fn left<'a>(&self, rows: impl Iterator<Item = (&'a f64, &'a f64)>) -> Option<f64> {
         let mut sums = [0.0; 5];
         for (t, value) in rows {
-            let (sine, cosine) = phase(t - self.start, 1.0 / self.period).sin_cos();
+            let (sine, cosine) = phase(*t, 1.0 / self.period).sin_cos();
             let products = [cosine * cosine, sine * sine, cosine * sine, cosine * value, sine * value];
             sums.iter_mut().zip(products).for_each(|(sum, product)| *sum += product);
         }
@@ -68,10 +68,7 @@ impl Line {
 /// `white` is the series whitened, in which the line is sought; `values` is the series itself, which tells its amplitude.
 pub fn strongest(time: &[f64], values: &[f64], white: &[f64]) -> Option<Line> {
     let spectrum = Spectrum::new(time, white)?;
-    let (bin, chance) = spectrum.bins().map(|bin| (bin, spectrum.chance(bin))).min_by(|a, b| a.1.total_cmp(&b.1))?;
-    if chance * spectrum.bins().len() as f64 / spectrum.filled > CHANCE {
-        return None;
-    }
+    let bin = spectrum.line()?;
     fitted(time, values, finer(time, white, bin as f64 * spectrum.step, spectrum.step))
 }
 
@@ -142,6 +139,12 @@ impl Spectrum {
     /// The bins that may hold a line.
     fn bins(&self) -> std::ops::Range<usize> {
         (FEWEST_CYCLES * self.filled).ceil() as usize..self.sums.len().saturating_sub(1 + (OWN * self.filled) as usize)
+    }
+
+    /// The bin that noise is least likely to fill, if that is unlikely of any.
+    fn line(&self) -> Option<usize> {
+        let (bin, chance) = self.bins().map(|bin| (bin, self.chance(bin))).min_by(|a, b| a.1.total_cmp(&b.1))?;
+        (chance * self.bins().len() as f64 / self.filled <= CHANCE).then_some(bin)
     }
 
     /// Chance that noise alone has the power of a bin.
@@ -224,6 +227,90 @@ mod tests {
             let turned = |(n, value): (usize, &Complex<f64>)| value * Complex::cis(-TAU * (k * n) as f64 / 16.0);
             let sum: Complex<f64> = series.iter().enumerate().map(turned).sum();
             assert!((found - sum).norm() < 1e-12, "{k}: {found} {sum}");
+        }
+    }
+
+    #[test]
+    fn exact_the_window_is_one_in_the_middle_and_nothing_at_the_ends() {
+        // NaN is left out
+        let rows: Vec<_> = weighed(&[10.0, 11.0, 12.0, 14.0], &[1.0, f64::NAN, 2.0, 3.0]).collect();
+        assert_eq!(rows, [(0.0, 1.0, 0.0), (2.0, 2.0, 1.0), (4.0, 3.0, 0.0)]);
+        assert!((hann(0.25) - 0.5).abs() < 1e-15 && (hann(1.0 / 6.0) - 0.25).abs() < 1e-15);
+    }
+
+    /// Of any rows in which cosine and sine differ, many or few, however they lie; what is left of the line itself is one of its period.
+    #[test]
+    fn exact_the_amplitude_that_is_left() {
+        let line = Line { period: 7.3, parts: [0.3, -0.2], start: 11.0 };
+        let left = |time: &[f64]| {
+            let wave = |t: &f64| (0.4 * (TAU * t / line.period).cos(), 0.9 * (TAU * t / line.period).sin());
+            let values: Vec<f64> = time.iter().map(wave).map(|(cosine, sine)| cosine + sine).collect();
+            line.left(time.iter().zip(&values))
+        };
+        let about = |share: f64| [share - 0.001, share + 0.001].map(|turns| turns * line.period);
+        let uneven = [100.0, 100.9, 103.7, 104.1, 109.0, -3.0];
+        for time in [&uneven[..], &uneven[..2], &uneven[3..], &about(0.0), &about(0.25), &about(2.125)] {
+            let found = left(time).expect("an amplitude");
+            assert!((found - 0.4_f64.hypot(0.9)).abs() < 1e-9, "{time:?}: {found}");
+        }
+        // no row, one, and such as are whole periods or halves apart
+        assert_eq!([left(&[]), left(&[5.0]), left(&[0.0, 0.5, 1.0, 3.5].map(|turns| (turns + 0.3) * line.period))], [None; 3]);
+    }
+
+    fn of_powers(powers: &[f64], filled: f64) -> Spectrum {
+        let sums = std::iter::once(0.0).chain(powers.iter().scan(0.0, |sum, power| {
+            *sum += power;
+            Some(*sum)
+        }));
+        Spectrum { sums: sums.collect(), step: 1.0, filled }
+    }
+
+    /// A variable of two degrees of freedom over a mean of n such ones exceeds x with the chance (1 + x/n)⁻ⁿ, as Fisher's distribution has it.
+    #[test]
+    fn exact_the_chance_of_a_power_is_that_of_fisher_s_distribution() {
+        let powers: Vec<f64> = (0..1000).map(|n| f64::from(n * n % 997 + n)).collect();
+        for filled in [1.0, 1.5, 1.99] {
+            let spectrum = of_powers(&powers, filled);
+            // 20 cycles at least, and 4 steps off the end at least
+            let bins = spectrum.bins();
+            assert_eq!((bins.start, bins.end), ((20.0 * filled).ceil() as usize, 1000 - (4.0 * filled) as usize));
+            for bin in [bins.start, bins.start + 60, 500, 900, bins.end - 1] {
+                let is_beside = |n: &usize| {
+                    (4.0 * filled..=68.0 * filled).contains(&(n.abs_diff(bin) as f64)) && n.abs_diff(bin) as f64 > 4.0 * filled
+                };
+                let around: Vec<f64> = (0..1000).filter(is_beside).map(|n| powers[n]).collect();
+                let mean = around.iter().sum::<f64>() / around.len() as f64;
+                let others = around.len() as f64 / filled / (1.0 + 8.0 / 9.0 + 2.0 / 36.0);
+                let chance = (1.0 + powers[bin] / mean / others).powf(-others);
+                assert!((spectrum.chance(bin) / chance - 1.0).abs() < 2e-3, "{filled} {bin}: {} {chance}", spectrum.chance(bin));
+            }
+        }
+    }
+
+    /// One bin over even ones: it is a line from the power on that noise has in one of a million series.
+    #[test]
+    fn exact_a_line_is_what_one_series_of_noise_in_a_million_has() {
+        for filled in [1.0, 1.5, 2.0] {
+            let mut powers = [1.0; 1000];
+            let others = 128.0 / ALIKE;
+            let bins = of_powers(&powers, filled).bins();
+            let chance = 1e-6 / (bins.len() as f64 / filled);
+            let least = others * (chance.powf(-1.0 / others) - 1.0);
+            for (share, found) in [(0.99, None), (1.01, Some(400))] {
+                powers[400] = share * least;
+                assert_eq!(of_powers(&powers, filled).line(), found, "{filled} {share}");
+            }
+        }
+    }
+
+    /// Of a sinusoid alone, between two steps of the spectrum.
+    #[test]
+    fn exact_the_frequency_of_a_sinusoid_is_found_between_the_steps() {
+        let time: Vec<f64> = (0..=500).map(f64::from).collect();
+        for cycles in [40.3, 101.5, 180.82] {
+            let values: Vec<f64> = time.iter().map(|t| (TAU * cycles * t / 500.0 + 0.4).sin()).collect();
+            let found = finer(&time, &values, cycles.round() / 500.0, 1.0 / 500.0);
+            assert!((found * 500.0 - cycles).abs() < 1e-5, "{cycles}: {}", found * 500.0);
         }
     }
 }

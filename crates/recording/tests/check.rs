@@ -305,8 +305,14 @@ fn gaps_jitter_and_clock_steps() {
     assert!(report.findings.iter().any(|finding| finding.kind == FindingKind::ClockStep(10.0)), "{:?}", report.findings);
 
     // one instant between two others: the clock goes on as before
-    let report = altered(|s| s.time[700] -= 10.0).report();
-    assert!(report.findings.iter().all(|finding| !matches!(finding.kind, FindingKind::ClockStep(_))), "{:?}", report.findings);
+    for by in [10.0, 20.0] {
+        let report = altered(|s| s.time[700] -= by).report();
+        assert!(
+            report.findings.iter().all(|finding| !matches!(finding.kind, FindingKind::ClockStep(_))),
+            "{:?}",
+            report.findings
+        );
+    }
 }
 
 #[test]
@@ -325,6 +331,9 @@ fn repeats_conflicts_and_time_that_goes_back() {
     let report = repeat(0.01);
     assert_eq!(report.findings[0].kind, FindingKind::Conflict);
     assert!(!report.usable());
+    // so is a value beside none
+    let report = repeat(NAN);
+    assert_eq!((&report.findings[0].kind, report.usable()), (&FindingKind::Conflict, false));
 
     // a block that was written twice
     let twice = |s: &mut Sample| {
@@ -425,6 +434,9 @@ fn rates_of_a_gyroscope_that_was_moved_are_an_error() {
     assert_eq!(found(&long), [(5000.0, [-1000.0, 1000.0], 30, Severity::Error)], "{:?}", long.findings);
     assert!((700..730).all(|row| !long.masks[1][row]) && !long.usable());
     assert_eq!(found(&short), []);
+    // of some as large the first is told
+    let swung = altered(|s| (0..8).for_each(|k| s.rate[700 + k] = [1500.0, -2500.0, 2500.0, -2000.0][k % 4])).report();
+    assert_eq!(found(&swung), [(-2500.0, [-1000.0, 1000.0], 8, Severity::Error)], "{:?}", swung.findings);
     assert!(short.usable() && (700..702).all(|row| !short.masks[1][row]));
 }
 
@@ -458,6 +470,12 @@ fn short_and_misshapen() {
     for rows in [0, 1, 2] {
         assert!(!cut(rows).usable(), "{rows}");
     }
+    let short = |rows: usize| {
+        let report = cut(rows);
+        report.findings.iter().find(|finding| finding.kind == FindingKind::TooShort(rows)).map(|finding| finding.severity)
+    };
+    let (error, warning) = (Some(Severity::Error), Some(Severity::Warning));
+    assert_eq!([2, 3, 99, 100].map(short), [error, warning, warning, None]);
     let report = cut(50);
     assert!(report.usable());
     assert!(report.findings.iter().any(|finding| finding.kind == FindingKind::TooShort(50)));

@@ -46,6 +46,9 @@ fn exact_a_gap_has_rows_without_a_value() {
         assert!([3, 9, 10, 11].iter().all(|&n| found[n].is_nan()), "{found:?}");
         assert_eq!(found.iter().copied().filter(|value| value.is_finite()).collect::<Vec<_>>(), given);
     }
+    // one of 1.6 has room for one as well
+    let found = filled(&recording(&[0.0, 2.0, 4.0, 7.25], &given[..4], &given[..4]));
+    assert_eq!(found.time(), [0.0, 2.0, 4.0, 5.25, 7.25]);
     // no more rows than half of those that there were: the usual interval stays
     let long = filled(&recording(&[0.0, 1.0, 2.0, 1202.0], &[1.0; 4], &[1.0; 4]));
     assert_eq!(long.time(), [0.0, 1.0, 2.0, 402.0, 802.0, 1202.0]);
@@ -112,6 +115,18 @@ fn means_are_those_of_the_group_and_readings_belong_to_the_instant() {
     assert_eq!(values(&readings_of(&time, &spike), "reading"), [0.0, 1.0, 0.0, 0.0]);
 }
 
+/// One row that is missing is a gap, in whatever unit of time.
+#[test]
+fn a_missing_row_cuts_a_group() {
+    let rows = [0.0, 1.0, 2.0, 4.0, 5.0, 6.0, 7.0, 8.0];
+    for unit in [1.0, 0.125, 64.0] {
+        let time = rows.map(|row| unit * row);
+        let Thinned { recording: thin, .. } =
+            thinned(&recording(&time, &rows, &rows), unit, &Thinning { interval: 4.0 * unit, ..RULE }).expect("thinned");
+        assert_eq!((thin.time(), values(&thin, "mean")), (&[7.0 * unit][..], &[5.5][..]));
+    }
+}
+
 fn readings_of(time: &[f64], reading: &[f64]) -> Recording {
     thin(&recording(time, reading, reading)).recording
 }
@@ -166,6 +181,8 @@ fn rest_is_that_both_stay_and_do_not_close_in() {
     assert_eq!(of([20.0, 21.0, 20.0, 20.0], [NAN, 18.0, 20.0, 20.0]), Some(Unrest::Apart(2.0)));
     // thermometers that differ by a constant are at rest all the same
     assert_eq!(of([20.0; 4], [18.7; 4]), None);
+    // or come nearer by no more than what is tolerated
+    assert_eq!(of([20.0; 4], [18.0, 18.5, 18.0, 18.0]), None);
     assert_eq!(of([20.0; 4], [NAN; 4]), None);
     assert_eq!(unrest(&[], &[], &[], &rest), None);
 }

@@ -72,7 +72,7 @@ fn a_mean_that_is_repeated_leaves_the_rows_in_which_it_is_new() {
     assert_eq!(report.instants.as_ref().unwrap().interval, 120.0);
     let held: Vec<&Finding> = report.findings.iter().filter(is_held).collect();
     let [finding] = held[..] else { panic!("{:?}", report.findings) };
-    assert_eq!((finding.channel.as_deref(), finding.repair), (Some("rate"), Repair::Dropped));
+    assert_eq!((finding.channel.as_deref(), &*finding.unit, finding.repair), (Some("rate"), "deg/h", Repair::Dropped));
     assert_eq!(finding.span, Some([30.0, 30.0 * 1999.0]));
     assert_eq!(
         finding.to_string(),
@@ -106,6 +106,23 @@ fn where_a_repeated_mean_is_missing_the_other_channels_go_on() {
     // every row that is dropped is told
     assert_eq!(held.iter().map(|finding| finding.rows).sum::<usize>(), ROWS - report.rows.len());
     assert!(report.findings.iter().all(|f| !matches!(f.kind, FindingKind::Gap { .. } | FindingKind::ClockStep(_))));
+}
+
+/// Means of four rows and of five by turns: where they are missing it goes on by five.
+#[test]
+fn where_a_mean_of_four_rows_and_a_half_is_missing_every_fifth_row_goes_on() {
+    let mut sample = sound(4, 0.01);
+    let start = |row: usize| row / 9 * 9 + if row % 9 < 4 { 0 } else { 4 };
+    sample.rate = (0..ROWS).map(|row| sample.rate[start(row)]).collect();
+    // whole pairs, of which as many of four rows are left as of five
+    sample.rate[900..1260].fill(f64::NAN);
+    sample.rate.truncate(1989);
+    sample.time.truncate(1989);
+    sample.temperature.truncate(1989);
+    let report = sample.report_of(&held_for(f64::INFINITY));
+    let kept = |rows: std::ops::Range<usize>| report.rows.iter().copied().filter(|row| rows.contains(row)).collect::<Vec<_>>();
+    assert_eq!(kept(0..20), [0, 4, 9, 13, 18]);
+    assert_eq!(kept(895..1260), (895..1260).step_by(5).collect::<Vec<_>>());
 }
 
 #[test]

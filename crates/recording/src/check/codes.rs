@@ -32,3 +32,24 @@ pub(super) fn judge(time: &[f64], values: &[f64], expectation: &Expectation, mas
     let span = [time[found[0]], time[found[found.len() - 1]]];
     Some(Finding::at(FindingKind::Impossible(largest), Severity::Warning, span, found.len(), Repair::Masked))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The largest of either sign, and of some as large the first.
+    #[test]
+    fn exact_the_largest_impossible_value_is_told() {
+        let of = |values: [f64; 4]| {
+            let expectation = Expectation { possible: [-8.0, 8.0], ..Expectation::default() };
+            let mut mask = [true; 4];
+            let finding = judge(&[0.0, 1.0, 2.0, 3.0], &values, &expectation, &mut mask)?;
+            assert_eq!((mask, finding.rows, finding.span), ([true, false, false, false], 3, Some([1.0, 3.0])));
+            Some(finding.kind)
+        };
+        let told = |largest| Some(FindingKind::Impossible(largest));
+        assert_eq!(of([1.0, 9.0, -12.0, 11.0]), told(-12.0));
+        assert_eq!(of([1.0, -12.0, 12.0, 11.0]), told(-12.0));
+        assert_eq!(of([1.0, 10.0, 9.0, -9.0]), told(10.0));
+    }
+}

@@ -52,6 +52,7 @@ fn jumps(values: &[f64], rows: &[usize]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::check::{ChannelSummary, Expectation, Unit};
 
     #[test]
     fn a_change_between_two_rows_is_a_jump() {
@@ -60,5 +61,34 @@ mod tests {
         assert!(!jump(&[0.0, 4.0, 8.0, 12.0]) && !jump(&[0.0, -4.0, -8.0, -12.0]));
         // two steps of one size are no jump
         assert!(!jump(&[0.0, 5.0, 10.0]));
+    }
+
+    /// A ramp of 3 K/s for 100 s, where 0.5 K/s is the fastest and 5000 s the longest: in units of 6 s to 50 s it could be.
+    #[test]
+    fn exact_another_unit_of_time_is_slow_enough_and_lasts_as_long_as_it_may() {
+        let units = [("5 s", 5.0), ("6 s", 6.0), ("half a minute", 30.0), ("100 s", 100.0)];
+        let mistaken = units.map(|(name, scale)| Unit { name: name.into(), scale, offset: 0.0 }).to_vec();
+        let clock = Clock { span: [60.0, 5000.0], usual: 600.0, mistaken, key: "time".into() };
+        let expectation = Expectation { fastest: 0.5, ..Expectation::default() };
+        let summary = ChannelSummary {
+            name: "air".into(),
+            unit: "degC".into(),
+            present: 101,
+            used: 101,
+            least: 0.0,
+            median: 150.0,
+            largest: 300.0,
+            noise: None,
+            step: None,
+        };
+        for start in [0.0, 1e6] {
+            let time: Vec<f64> = (0..=100).map(|n| start + f64::from(n)).collect();
+            let values: Vec<f64> = (0..=100).map(|n| 3.0 * f64::from(n)).collect();
+            let context = Context { time: &time, values: &values, summary: &summary, interval: 1.0, expectation: &expectation };
+            let found = judge(&context, &[true; 101], &clock).expect("too fast");
+            let candidates = vec!["6 s".into(), "half a minute".into()];
+            assert_eq!(found.kind, FindingKind::TooFast { rate: 3.0, limit: 0.5, candidates, key: "time".into() });
+            assert_eq!(found.span, Some([start, start + 20.0]));
+        }
     }
 }

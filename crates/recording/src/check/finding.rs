@@ -354,4 +354,34 @@ mod tests {
         let advice = |is_explained| Finding::whole(of(is_explained), Severity::Note).advice().into_owned();
         assert!(advice(true).starts_with("remove it") && advice(false).starts_with("check unit and scale"));
     }
+
+    #[test]
+    fn exact_advice_declares_a_unit_by_the_key_that_there_is() {
+        let unit = |candidates: &[&str], key: &str| FindingKind::Unit {
+            what: "values",
+            found: 300.0,
+            range: [-50.0, 100.0],
+            candidates: candidates.iter().map(|&name| name.to_owned()).collect(),
+            key: key.into(),
+        };
+        let start = |key: &str| FindingKind::Start { found: 70.0, candidate: "degF".into(), key: key.into() };
+        let cases = [
+            (start("air"), "if so, say it: --unit air=degF, or unit in the map file"),
+            (start(""), "if so, say it: --unit KEY=UNIT, or unit in the map file"),
+            (
+                unit(&["K", "degF"], "air"),
+                "if so, say it: --unit air=K (or degF), or unit in the map file; or --scale air=FACTOR where it holds counts",
+            ),
+            (
+                unit(&[], "air"),
+                "if its unit is another, say it: --unit KEY=UNIT, or unit in the map file; or --scale air=FACTOR where it holds counts",
+            ),
+            (unit(&["K"], ""), "if so, say it: --unit KEY=UNIT, or unit in the map file"),
+            (unit(&[], ""), "if its unit is another, say it: --unit KEY=UNIT, or unit in the map file"),
+            (FindingKind::ClockStep(43.0), "if the clock was set, split the file there or mend the instants"),
+        ];
+        for (kind, advice) in cases {
+            assert_eq!(Finding::whole(kind.clone(), Severity::Warning).advice(), advice, "{kind:?}");
+        }
+    }
 }

@@ -83,4 +83,24 @@ mod tests {
         assert!((found.rows - (39.0 * 5.0 + 1.0) / 40.0).abs() < 1e-12, "{}", found.rows);
         assert_eq!(found.fresh.iter().filter(|fresh| **fresh).count(), 42);
     }
+
+    /// Some readings stand for seven rows, which is less than one and a half times five: they count.
+    #[test]
+    fn exact_the_usual_length_is_the_mean_of_single_readings() {
+        let lengths = (0..42).map(|n| if n % 4 == 1 { 7 } else { 5 });
+        let values: Vec<f64> = lengths.enumerate().flat_map(|(n, rows)| vec![0.1 * ((7 * n) % 31) as f64; rows]).collect();
+        let found = held(&values, &vec![true; values.len()], 100.0).expect("a rhythm");
+        assert!((found.rows - (30.0 * 5.0 + 10.0 * 7.0) / 40.0).abs() < 1e-12, "{}", found.rows);
+    }
+
+    /// Forty changes, some of them by three steps, the others by one to and fro.
+    #[test]
+    fn exact_a_rhythm_has_a_quarter_of_its_changes_by_several_steps() {
+        let rows = |several: u32| {
+            let level = |n: u32| f64::from(3 * n.min(several) + n.saturating_sub(several) % 2);
+            let values: Vec<f64> = (0..=40).flat_map(|n| [level(n); 5]).collect();
+            held(&values, &[true; 205], 100.0).map(|held| held.rows)
+        };
+        assert_eq!([9, 10, 11].map(rows), [None, Some(5.0), Some(5.0)]);
+    }
 }

@@ -63,3 +63,46 @@ pub(super) fn judge(summary: &ChannelSummary, course: &Course, expectation: &Exp
     }
     findings
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Findings of a rate from −`size` to `size` with a median and noise.
+    fn of(size: f64, median: f64, noise: f64, expectation: &Expectation) -> Vec<Finding> {
+        let summary = ChannelSummary {
+            name: "rate".into(),
+            unit: "deg/h".into(),
+            present: 1000,
+            used: 1000,
+            least: -size,
+            median,
+            largest: size,
+            noise: Some(noise),
+            step: None,
+        };
+        judge(&summary, &Course { extremes: [-size, size], start: 0.0 }, expectation)
+    }
+
+    #[test]
+    fn exact_values_below_the_least_size_are_in_another_unit() {
+        let expectation = Expectation { noise: [0.1, 10.0], least_size: 0.5, essential: true, ..Expectation::default() };
+        let severity = |size| of(size, 0.0, 0.01, &expectation).iter().map(|finding| finding.severity).collect::<Vec<_>>();
+        assert_eq!([0.25, 0.5].map(severity), [[Severity::Error], [Severity::Warning]]);
+    }
+
+    /// Of 15 deg/h that are known and half of one that is expected beside them: their opposite is explained, neither other numbers nor other signs are.
+    #[test]
+    fn exact_what_is_known_explains_its_opposite() {
+        let explained = |known: f64, median: f64| {
+            let offset = Some(Offset { known, largest: 0.5, explained: 12.0, of: "Earth rate".into() });
+            let found = of(20.0, median, 1.0, &Expectation { offset, ..Expectation::default() });
+            found.first().map(|finding| matches!(finding.kind, FindingKind::Offset { is_explained: true, .. }))
+        };
+        let medians = [0.0, 0.5, 0.75, 14.25, 14.5, 15.5, 15.75, -14.25, -14.5, -15.0, -15.5, -15.75];
+        let [none, no, yes] = [None, Some(false), Some(true)];
+        let found = medians.map(|median| explained(15.0, median));
+        assert_eq!(found, [none, none, no, no, none, none, no, no, yes, yes, yes, no]);
+        assert_eq!([-13.0, -12.0, -0.5, 0.75, 12.0, 13.0].map(|median| explained(0.0, median)), [no, yes, none, yes, yes, no]);
+    }
+}
