@@ -258,7 +258,8 @@ fn check_rectangle(at: &Group, file: &BodyFile, winding: &Winding) -> Result<(),
     let (inner, outer) = (to_mm(winding.spec().inner_radius), file.outer_radius_mm.0);
     if outer <= inner {
         let problem = format!("{outer} mm is not greater than winding.inner_radius_mm, {inner} mm");
-        return Err(at.fault("outer_radius_mm", problem, "give the radius, not the thickness, of the wound coil"));
+        let remedy = "give both as radii of the wound coil: either may be a diameter or a thickness";
+        return Err(at.fault("outer_radius_mm", problem, remedy));
     }
     let slack = SLACK * to_mm(winding.spec().pitch);
     let height = ("height_mm", file.height_mm.0, winding.height());
