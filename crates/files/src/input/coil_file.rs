@@ -134,7 +134,7 @@ mirrored! {
         read_out_deg_per_h_per_k: DriftDegPerHPerK = read_out,
     }
 
-    /// The fibre's optics.
+    /// The fibre's optics at the wavelength that is used; the bias does not depend on the wavelength itself, which cancels.
     OpticsFile is Optics {
         /// Refractive index n.
         refractive_index: Index = refractive_index,
