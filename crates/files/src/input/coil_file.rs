@@ -146,7 +146,7 @@ mirrored! {
         p11: Photoelastic = p11,
         /// Photoelastic constant.
         p12: Photoelastic = p12,
-        /// Effective diameter D; the coil's mean diameter unless given.
+        /// Effective diameter D; unless given the coil's mean diameter, or that of the turns where the coil reaches more than a pitch beyond them.
         #[serde(default = "not_given")]
         #[schemars(extend("default" = "mean diameter"))]
         sagnac_diameter_mm: LengthMm = sagnac_diameter,
