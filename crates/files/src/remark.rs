@@ -353,7 +353,7 @@ remarks! {
         "Look at the rows that the message names, and at the figure of the residuals. Tell `sample_interval_s` in a meta file if the log's instants are in doubt, or whether the rate is filtered.";
     HeldOutLeft "held-out-left":
         "What was found leaves more than 1.3 times the noise in a record that was held out (a warning from twice the noise on), or more than twice the noise that its neighbouring rows show.",
-        "What was found may be right and not all: something else was at work in that record, or it is of another unit.",
+        "What was found may be right and not all: something else was at work in that record, or it is of another unit. With the warning, a unit of a batch has not passed.",
         "Check that the records are of one unit in one state, and fit the other record, too: `--fit` it, and hold out another.";
     TakenBack "taken-back":
         "The likeliest explanation predicts a record that was held out worse than the nominal model, or no better and far from its noise.",
