@@ -41,7 +41,7 @@ remarks! {
     // coil files
     UnfilledCoil "unfilled-coil":
         "The coil's rectangle (`coil.outer_radius_mm`, `coil.height_mm`) is larger than the winding in it: by more than a pitch in radius, or a tenth of one in height.",
-        "Heat flow and stiffness are those of the rectangle, all of it winding; the optics are those of the turns alone. Turns begin at the left face: room at the right changes the sensitivity.",
+        "Heat flow and stiffness are those of the rectangle, all of it winding; the Sagnac diameter, unless given, is the mean one of the turns alone where the room in radius is more than a pitch. Turns begin at the left face: room at the right changes the sensitivity.",
         "Check layers, turns and `pitch_mm` against the drawing, or reduce the rectangle to the winding.";
     OtherSpacing "other-spacing":
         "`winding.start_mm` and `end_mm` set the turns of a layer more than 3 % closer or farther apart than `pitch_mm`.",
@@ -56,9 +56,9 @@ remarks! {
         "Every rate is inversely proportional to it.",
         "Give the mean diameter of the turns in mm (not the radius, and not in metres).";
     SagnacDiffers "sagnac-differs":
-        "`optics.sagnac_diameter_mm` is more than 2 % off the coil's mean diameter.",
+        "`optics.sagnac_diameter_mm` is more than 2 % off the mean diameter: of the coil, or of the turns where the coil reaches more than a pitch beyond them (`unfilled-coil`).",
         "Every rate is inversely proportional to it.",
-        "Leave it out: then it is the mean diameter. Give another only if it was measured.";
+        "Leave it out: then it is that mean diameter. Give another only if it was measured.";
     LongTail "long-tail":
         "A tail in `winding.tails_m` is longer than half the winding.",
         "The middle of the fibre moves into one half of the coil: the sensitivity is that of a coil that is not symmetric at all.",
@@ -353,7 +353,7 @@ remarks! {
         "Look at the rows that the message names, and at the figure of the residuals. Tell `sample_interval_s` in a meta file if the log's instants are in doubt, or whether the rate is filtered.";
     HeldOutLeft "held-out-left":
         "What was found leaves more than 1.3 times the noise in a record that was held out (a warning from twice the noise on), or more than twice the noise that its neighbouring rows show.",
-        "What was found may be right and not all: something else was at work in that record, or it is of another unit.",
+        "What was found may be right and not all: something else was at work in that record, or it is of another unit. With the warning, a unit of a batch has not passed.",
         "Check that the records are of one unit in one state, and fit the other record, too: `--fit` it, and hold out another.";
     TakenBack "taken-back":
         "The likeliest explanation predicts a record that was held out worse than the nominal model, or no better and far from its noise.",

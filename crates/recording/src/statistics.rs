@@ -1,6 +1,6 @@
 //! Robust measures, quantiles, and a test of whiteness.
 
-use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
+use statrs::distribution::{ChiSquared, ContinuousCDF, Normal, StudentsT};
 
 /// Median; `None` of nothing. Values are finite.
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
@@ -49,6 +49,14 @@ pub fn chi_square_quantile(probability: f64, freedom: f64) -> f64 {
         if distribution.cdf(middle) < probability { low = middle } else { high = middle }
     }
     low / 2.0 + high / 2.0
+}
+
+/// The value that Student's t of `freedom` > 0 degrees stays below with `probability` in (0, 1); NaN for another probability or freedom.
+pub fn student_quantile(probability: f64, freedom: f64) -> f64 {
+    match StudentsT::new(0.0, 1.0, freedom) {
+        Ok(distribution) if is_probability(probability) => distribution.inverse_cdf(probability),
+        _ => f64::NAN,
+    }
 }
 
 /// Probability that white noise is at least as correlated as a series (Ljung and Box, *Biometrika* 65, 297, 1978).
@@ -109,9 +117,29 @@ mod tests {
     }
 
     #[test]
+    fn student_meets_its_closed_forms_and_the_normal() {
+        for probability in [0.01, 0.3, 0.975, 1.0 - 1e-4, 1.0 - 1e-6] {
+            let upper = 1.0 - probability;
+            let closed = [(1.0, -1.0 / (std::f64::consts::PI * probability).tan())];
+            let two = (2.0 * probability - 1.0) / (2.0 * probability * upper).sqrt();
+            for (freedom, expected) in closed.into_iter().chain([(2.0, two)]) {
+                let found = student_quantile(probability, freedom);
+                assert!((found / expected - 1.0).abs() < 1e-6, "{probability} {freedom}: {found} {expected}");
+            }
+        }
+        // Abramowitz and Stegun, table 26.10
+        assert!((student_quantile(0.995, 10.0) - 3.169).abs() < 5e-4 && (student_quantile(0.9995, 4.0) - 8.610).abs() < 5e-4);
+        let many = student_quantile(1.0 - 1e-6, 1e6);
+        assert!((many / normal_quantile(1.0 - 1e-6) - 1.0).abs() < 1e-4, "{many}");
+        assert!(student_quantile(0.5, 0.0).is_nan() && student_quantile(0.5, f64::NAN).is_nan());
+    }
+
+    #[test]
     fn what_is_no_probability_has_no_quantile() {
         for probability in [-0.1, 0.0, 1.0, 1.5, f64::INFINITY, f64::NAN] {
-            assert!(chi_square_quantile(probability, 3.0).is_nan() && normal_quantile(probability).is_nan(), "{probability}");
+            let quantiles =
+                [chi_square_quantile(probability, 3.0), student_quantile(probability, 3.0), normal_quantile(probability)];
+            assert!(quantiles.into_iter().all(f64::is_nan), "{probability}");
         }
     }
 

@@ -18,7 +18,7 @@ use super::opened::open;
 use super::source::{COIL, Source};
 use super::spool_file::spool;
 use super::tolerances::{self, Unused};
-use super::warnings::{in_medium, warnings};
+use super::warnings::{in_medium, mean_diameter, warnings};
 use super::winding_file::winding;
 use super::{InputError, heat};
 use crate::note::Note;
@@ -181,7 +181,7 @@ fn checked(path: &Path, source: Source, unused: Unused) -> Result<CoilCase, Erro
         heat: heat::paths(&top.group("heat"), &file.heat, spool.as_ref())?,
         spool,
         sensor,
-        optics: optics(&file.optics, inner_radius + body.outer_radius),
+        optics: optics(&file.optics, mean_diameter(&body, &winding)),
         drifts: file.drifts.model(),
         dehomogenization,
     };
@@ -233,7 +233,7 @@ impl CoilCase {
     }
 }
 
-/// The fibre's optics; an effective diameter that is not given is the coil's mean diameter.
+/// The fibre's optics; an effective diameter that is not given is the mean one.
 fn optics(file: &coil_file::OpticsFile, mean_diameter: f64) -> bias::Optics {
     let optics = file.model();
     let sagnac_diameter = if optics.sagnac_diameter.is_nan() { mean_diameter } else { optics.sagnac_diameter };
@@ -258,7 +258,8 @@ fn check_rectangle(at: &Group, file: &BodyFile, winding: &Winding) -> Result<(),
     let (inner, outer) = (to_mm(winding.spec().inner_radius), file.outer_radius_mm.0);
     if outer <= inner {
         let problem = format!("{outer} mm is not greater than winding.inner_radius_mm, {inner} mm");
-        return Err(at.fault("outer_radius_mm", problem, "give the radius, not the thickness, of the wound coil"));
+        let remedy = "give both as radii of the wound coil: either may be a diameter or a thickness";
+        return Err(at.fault("outer_radius_mm", problem, remedy));
     }
     let slack = SLACK * to_mm(winding.spec().pitch);
     let height = ("height_mm", file.height_mm.0, winding.height());

@@ -134,7 +134,7 @@ mirrored! {
         read_out_deg_per_h_per_k: DriftDegPerHPerK = read_out,
     }
 
-    /// The fibre's optics.
+    /// The fibre's optics at the wavelength that is used; the bias does not depend on the wavelength itself, which cancels.
     OpticsFile is Optics {
         /// Refractive index n.
         refractive_index: Index = refractive_index,
@@ -146,7 +146,7 @@ mirrored! {
         p11: Photoelastic = p11,
         /// Photoelastic constant.
         p12: Photoelastic = p12,
-        /// Effective diameter D; the coil's mean diameter unless given.
+        /// Effective diameter D; unless given the coil's mean diameter, or that of the turns where the coil reaches more than a pitch beyond them.
         #[serde(default = "not_given")]
         #[schemars(extend("default" = "mean diameter"))]
         sagnac_diameter_mm: LengthMm = sagnac_diameter,

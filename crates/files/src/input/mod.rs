@@ -87,4 +87,5 @@ pub use schema::schemas;
 pub use spool::{SpoolCase, read_spool};
 pub use targets::{TargetsCase, check_targets, read_targets};
 pub use tolerances::{keyed, keyed_sd};
+pub use warnings::mean_diameter;
 pub use written_constants::with_constants;

@@ -1,6 +1,6 @@
 //! Entries of a coil file that are allowed but rarely meant.
 
-use coil::{Design, Layout, Region, Sensor};
+use coil::{Body, Design, Layout, Region, Sensor};
 use winding::{Half, Pattern, Winding};
 
 use crate::note::Note;
@@ -16,11 +16,21 @@ const AXIAL_ROOM: f64 = 0.1;
 const SAME_SPACING: f64 = 0.03;
 /// Part of a pitch by which turns may stand out of the coil without a word: twice the largest tolerance of a winding's end, where a fit of a record may put it.
 const OUTSIDE: f64 = 0.25;
-/// Largest relative distance of the effective diameter from the coil's mean diameter that passes without a word.
+/// Largest relative distance of the effective diameter from the [`mean_diameter`] that passes without a word.
 const SAME_DIAMETER: f64 = 0.02;
 
 /// Distance from a solid at which a thermometer is still on it \[m\]: the rounding of a drawing.
 const ON: f64 = 1e-6;
+
+/// Whether the winding fills the body in radius, but for the room that a drawing leaves.
+fn is_filled(body: &Body, winding: &Winding) -> bool {
+    body.outer_radius <= winding.outer_radius() + ROOM * winding.spec().pitch
+}
+
+/// The effective diameter D unless another was measured \[m\]: the coil's mean diameter where the winding fills it, else that of the turns.
+pub fn mean_diameter(body: &Body, winding: &Winding) -> f64 {
+    if is_filled(body, winding) { winding.spec().inner_radius + body.outer_radius } else { winding.mean_diameter() }
+}
 
 /// Whether a thermometer is on no solid.
 pub(crate) fn in_medium(layout: &Layout, sensor: Sensor) -> bool {
@@ -67,10 +77,11 @@ pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> V
         let message =
             format!("optics.sagnac_diameter_mm: {sagnac} mm lies outside the coil, {inner:.3} to {outer:.3} mm; is this meant?");
         found.push(Remark::SagnacOutside.warning(message));
-    } else if (sagnac / ((inner + outer) / 2.0) - 1.0).abs() > SAME_DIAMETER {
-        let (sagnac, mean) = (to_mm(sagnac), to_mm((inner + outer) / 2.0));
+    } else if (sagnac / mean_diameter(body, winding) - 1.0).abs() > SAME_DIAMETER {
+        let (sagnac, mean) = (to_mm(sagnac), to_mm(mean_diameter(body, winding)));
+        let of = if is_filled(body, winding) { "coil" } else { "turns" };
         let message =
-            format!("optics.sagnac_diameter_mm: {sagnac} mm is not the coil's mean diameter, {mean:.3} mm; is this meant?");
+            format!("optics.sagnac_diameter_mm: {sagnac} mm is not the mean diameter of the {of}, {mean:.3} mm; is this meant?");
         found.push(Remark::SagnacDiffers.warning(message));
     }
     let (pattern, layers) = (design.winding.pattern, design.winding.layers);

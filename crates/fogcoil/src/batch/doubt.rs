@@ -3,9 +3,12 @@
 use diagnosis::SURE;
 use recording::statistics::{median, robust_sd};
 
-use super::lot::{FAR, FEWEST};
+use super::lot::FEWEST;
 use super::row::Row;
 use super::run::Batch;
+
+/// Robust standard deviations below the others from which doubt marks one of many (B. Iglewicz and D. C. Hoaglin, *How to Detect and Handle Outliers*, 1993).
+const FAR: f64 = 3.5;
 
 /// The units whose verdict has a probability below [`SURE`].
 pub(super) struct Doubt {

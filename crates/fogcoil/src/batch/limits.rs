@@ -127,6 +127,9 @@ fn checked(path: &Path, (file, fingerprint): (LimitsFile, Fingerprint)) -> Resul
 /// Between the name of a number and the reason why it is not known.
 const NOT_KNOWN: &str = " is not known: ";
 
+/// Reason why a unit has not passed of which a record that was held out shows something that its diagnosis does not hold.
+const NOT_PREDICTED: &str = "the diagnosis does not predict the record that was held out: far more than noise is left of it";
+
 /// Reasons of which each is said once, with all numbers that are not known for it.
 fn merged(reasons: Vec<String>) -> Vec<String> {
     let mut merged: Vec<(Vec<String>, String)> = Vec::new();
@@ -178,7 +181,8 @@ impl Limits {
         self.limits.iter().find(|(name, _)| *name == number).map(|(_, limit)| limit.ends())
     }
 
-    /// Judges a unit: of a number that was not measured, or whose interval is wider than its limits, it is not known whether it keeps them.
+    /// Judges a unit: of a number that was not measured, or whose interval is wider than its limits, it is not known whether it keeps them; of a unit whose
+    /// record that was held out is not predicted, nothing is known that it keeps.
     pub fn judge(&self, row: &Row) -> Judged {
         if let Some(problem) = row.problem.as_ref().filter(|_| row.is_unread()) {
             return Judged::NotKnown(vec![problem.clone()]);
@@ -194,8 +198,9 @@ impl Limits {
             Some(verdict) => Kept::No(format!("the verdict is {verdict}")),
             None => Kept::NotKnown("there is no verdict".into()),
         });
+        let held = row.is_not_predicted().then(|| Kept::NotKnown(NOT_PREDICTED.into()));
         let (mut broken, mut not_known) = (Vec::new(), Vec::new());
-        for kept in self.limits.iter().map(|(name, limit)| self.kept(name, *limit, row)).chain(verdict) {
+        for kept in self.limits.iter().map(|(name, limit)| self.kept(name, *limit, row)).chain(verdict).chain(held) {
             match kept {
                 Kept::Yes => {}
                 Kept::No(reason) => broken.push(reason),
@@ -295,6 +300,24 @@ mod tests {
             (fails.word(), fails.reasons().unwrap()),
             ("fail", format!("the verdict is recalibrate; sensitivity is not known: {why}"))
         );
+    }
+
+    #[test]
+    fn a_unit_whose_held_out_record_is_not_predicted_has_not_passed() {
+        let of = |limits: &str, kind: &str, id: &str| {
+            let limits = check_limits("limits.ron".as_ref(), limits).unwrap();
+            let notes = [format!("{kind}: holdout.csv: far")];
+            let diagnosis = json!({"verdict": "recalibrate", "notes": notes, "note_ids": [id]});
+            let measured = json!({"sensitivity": {"value": -2.7, "ci90": [-2.8, -2.6]}});
+            limits.judge(&Row::of(&json!({"unit": "U", "measured": measured, "diagnosis": diagnosis})))
+        };
+        let far = of(LIMITS, "warning", "held-out-left");
+        assert_eq!((far.word(), far.reasons().as_deref()), ("not known", Some(NOT_PREDICTED)));
+        assert_eq!(of("(limits: {\"sensitivity\": Within(-3.2, -2.3)})", "warning", "held-out-left").word(), "not known");
+        // little left, or another warning
+        assert_eq!([of(LIMITS, "note", "held-out-left"), of(LIMITS, "warning", "gap")], [Judged::Passes, Judged::Passes]);
+        let fails = of(&LIMITS.replace("recalibrate", "none"), "warning", "held-out-left");
+        assert_eq!((fails.word(), fails.reasons().unwrap()), ("fail", format!("the verdict is recalibrate; {NOT_PREDICTED}")));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use recording::statistics::{median, normal_quantile, robust_sd};
+use recording::statistics::{median, normal_quantile, robust_sd, student_quantile};
 
 use super::row::{NUMBERS, Row};
 use super::run::Batch;
@@ -40,8 +40,10 @@ impl Outlier<'_> {
 
 /// The number of which the sign says nothing: which way a peak points, the noise may decide.
 const SIGNLESS: &str = "peak";
-/// Distance from which a number stands out (B. Iglewicz and D. C. Hoaglin, *How to Detect and Handle Outliers*, 1993).
-pub(super) const FAR: f64 = 3.5;
+/// The number that is in standard deviations already: units do not spread less than by one.
+const IN_SIGMAS: &str = "sigmas_from_predicted";
+/// Chance that a number of a sound batch stands out, all numbers of all units together, about and at most.
+pub(super) const BY_CHANCE: f64 = 0.05;
 /// Distance from the design, in standard deviations of its tolerance, from which a constant is worth a line.
 const WORTH: f64 = 0.5;
 /// Fewest units that show a common deviation, and the usual range.
@@ -94,13 +96,29 @@ pub(super) fn common(units: &[&Row]) -> Vec<Common> {
     all
 }
 
+/// The numbers in which a unit may stand out.
+fn looked_at() -> impl Iterator<Item = &'static str> {
+    NUMBERS.into_iter().filter(|number| !number.ends_with("probability"))
+}
+
+/// Distance from which one of `all` values of a number stands out of its `peers`, such that any value of any number does with the chance [`BY_CHANCE`].
+///
+/// The farthest of n normal values, in 1.4826 median absolute deviations, is distributed about like that of n values of Student's t with 0.4 n degrees of freedom, n
+/// rounded up to an odd number: a median absolute deviation is as uncertain as the standard deviation of 0.37 n values (P. J. Huber, *Robust Statistics*, 1981). A
+/// test counts how often it is beyond.
+fn far(peers: usize, all: usize) -> f64 {
+    let chance = BY_CHANCE / (looked_at().count() * all) as f64;
+    student_quantile(1.0 - chance / 2.0, 0.4 * (peers | 1) as f64)
+}
+
 /// Numbers that stand out, the farthest first.
 pub(super) fn outliers(batch: &Batch) -> Vec<Outlier<'_>> {
     let mut all = Vec::new();
     // half of a 90 % interval of a normal number in its standard deviations
     let half = normal_quantile(0.95);
-    for number in NUMBERS.iter().filter(|number| !number.ends_with("probability")) {
-        let size = |value: f64| if *number == SIGNLESS { value.abs() } else { value };
+    for number in looked_at() {
+        let least = if number == IN_SIGMAS { 1.0 } else { 0.0 };
+        let size = |value: f64| if number == SIGNLESS { value.abs() } else { value };
         let known: Vec<(&Row, f64)> = batch.rows.iter().filter_map(|(row, _)| Some((row, size(row.number(number)?)))).collect();
         for (row, value) in &known {
             let peers: Vec<f64> =
@@ -108,14 +126,16 @@ pub(super) fn outliers(batch: &Batch) -> Vec<Outlier<'_>> {
             if peers.len() < FEWEST {
                 continue;
             }
+            let far = far(peers.len(), known.len());
             let Some(middle) = median(peers.clone()) else { continue };
             let Some(scale) = robust_sd(peers.into_iter(), middle) else { continue };
             // what is poorly known is not far because of that
             let own = row.interval(number).map_or(0.0, |[low, high]| (high - low) / (2.0 * half));
+            let scale = scale.max(least);
             let distance = (value - middle) / scale.hypot(own);
             // to leave less than the others is nothing that stands out
             let is_good = number.starts_with("residual") && distance < 0.0;
-            if scale > 0.0 && distance.abs() > FAR && !is_good {
+            if scale > 0.0 && distance.abs() > far && !is_good {
                 all.push(Outlier {
                     unit: &row.unit,
                     number,
@@ -191,6 +211,59 @@ mod tests {
             [of(row(6, -2.36, 54_600.0, 2.0)), of(row(6, -2.36, 27_000.0, 1.0)), of(row(6, -2.36, 54_600.0, 1.0))],
             [0, 0, 1]
         );
+    }
+
+    /// Standard normal numbers, by Marsaglia's polar method of the numbers of Vigna's splitmix64.
+    fn normal() -> impl Iterator<Item = f64> {
+        let mut state = 1_u64;
+        let mut uniform = move || {
+            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mixed = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((mixed ^ (mixed >> 31)) >> 11) as f64 * 2.0_f64.powi(-52) - 1.0
+        };
+        std::iter::from_fn(move || {
+            let pair = std::iter::repeat_with(|| [uniform(), uniform()]).find(|[x, y]| (1e-300..1.0).contains(&x.hypot(*y)))?;
+            let square = pair[0].powi(2) + pair[1].powi(2);
+            Some(pair[0] * (-2.0 * square.ln() / square).sqrt())
+        })
+    }
+
+    #[test]
+    fn a_sound_batch_of_any_size_has_an_outlier_by_chance_as_often_as_said() {
+        const BATCHES: usize = 40_000;
+        let mut numbers = normal();
+        for units in [5, 6, 7, 8, 12, 20, 51, 100] {
+            let far = far(units, units);
+            let mut stands_out = || {
+                let values: Vec<f64> = numbers.by_ref().take(units).collect();
+                let middle = median(values.clone()).unwrap();
+                let scale = robust_sd(values.iter().copied(), middle).unwrap();
+                values.iter().any(|value| (value - middle).abs() > far * scale)
+            };
+            let count = (0..BATCHES).filter(|_| stands_out()).count();
+            let chance = (looked_at().count() * count) as f64 / BATCHES as f64;
+            // one standard deviation of the count is 8 %
+            assert!(chance < 1.2 * BY_CHANCE && chance > 0.4 * BY_CHANCE, "{units} units: {chance}, {far}");
+        }
+    }
+
+    #[test]
+    fn a_number_in_standard_deviations_spreads_by_one_at_least() {
+        let of = |values: &[f64]| {
+            let row = |(n, value): (usize, &f64)| {
+                let measured = json!({"prediction": {"value": -0.48, "sigmas": value}});
+                (Row::of(&json!({"unit": format!("U{n}"), "measured": measured})), Judged::Unjudged)
+            };
+            let batch = Batch { rows: values.iter().enumerate().map(row).collect() };
+            outliers(&batch).iter().map(|outlier| (outlier.unit.to_owned(), outlier.distance)).collect::<Vec<_>>()
+        };
+        // a lot made closer than its tolerances, and units well within them
+        let sound = [-0.66, -0.67, -0.65, -0.66, -0.67, -0.65, -1.55, 1.3];
+        assert_eq!(of(&sound), []);
+        let wrong = [&sound[..7], &[20.0]].concat();
+        let found = of(&wrong);
+        assert!(found.len() == 1 && found[0].0 == "U7" && (found[0].1 - 20.66).abs() < 0.01, "{found:?}");
     }
 
     #[test]

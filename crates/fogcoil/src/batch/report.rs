@@ -7,11 +7,11 @@ use super::doubt::Doubt;
 use super::finding::Inputs;
 use super::kept::page;
 use super::limits::Limits;
-use super::lot::{Common, FEWEST, Outlier, common, lots, outliers, within_tolerances};
+use super::lot::{BY_CHANCE, Common, FEWEST, Outlier, common, lots, outliers, within_tolerances};
 use super::row::{Row, unit_of};
 use super::run::Batch;
 use super::serials::{copied, repeated};
-use super::text::named;
+use super::text::{NOT_PASSED, named};
 use super::trends::trends;
 use crate::input::Fingerprint;
 use crate::report::provenance;
@@ -38,7 +38,7 @@ fn lead(batch: &Batch, limits: Option<&Limits>) -> Markup {
                 (Some(_), 0) => { "All " (all) " units keep the limits." }
                 (Some(_), _) => {
                     (all - failing - not_known) " of " (all) " units pass, " (failing) " fail" (named(batch, "fail"))
-                    @if not_known > 0 { "; of " (not_known) " it is not known" (named(batch, "not known")) ": a figure is missing or too uncertain, so they have not passed" }
+                    @if not_known > 0 { "; of " (not_known) " it is not known" (named(batch, "not known")) ": " (NOT_PASSED) }
                     "."
                 }
             }
@@ -124,10 +124,20 @@ fn standing_out(batch: &Batch) -> Markup {
         } @else if all.is_empty() {
             p { "No number of a unit is far from those of the others." }
         } @else {
-            (grid("Numbers farther than 3.5 robust standard deviations from the median of all units", Cells::Words,
+            (grid("Numbers far from the median of all units, in robust standard deviations", Cells::Words,
                 &["unit", "number", "value", "median", "distance"], &all.iter().map(row).collect::<Vec<_>>()))
+            p { (chance()) }
         }
     }
+}
+
+/// How often chance makes a number stand out.
+fn chance() -> String {
+    format!(
+        "In about one sound batch in {:.0} at most a number is so far from it by chance, all numbers of all units together; the fewer the units, the larger the \
+         distance.",
+        1.0 / BY_CHANCE
+    )
 }
 
 fn in_common(batch: &Batch) -> Markup {

@@ -1,5 +1,6 @@
 //! A unit as a row of the table.
 
+use files::Remark;
 use serde_json::{Value, json};
 
 /// Numbers of a unit, in the order of the table; the first eight have intervals, as `fogcoil measure` tells them.
@@ -190,6 +191,11 @@ impl Row {
             which.map_or_else(|| id.clone(), |which| format!("{id} ({which})"))
         };
         (!self.warnings.is_empty()).then(|| format!("warned of {}", self.warnings.iter().map(of).collect::<Vec<_>>().join(", ")))
+    }
+
+    /// Whether far more than noise is left of a record that was held out.
+    pub(super) fn is_not_predicted(&self) -> bool {
+        self.warnings.iter().any(|id| id == Remark::HeldOutLeft.id())
     }
 
     /// Reason why a number is not known.

@@ -27,7 +27,7 @@ pub fn text(batch: &Batch) -> String {
             judged.word().to_owned(),
             [
                 row.warned(),
-                Some(row.open()).filter(|open| !reasons.as_ref().is_some_and(|told| told.contains(open))),
+                Some(row.open()).filter(|open| !(open.is_empty() || reasons.as_ref().is_some_and(|told| told.contains(open)))),
                 reasons.clone(),
             ]
             .into_iter()
@@ -83,12 +83,16 @@ fn judged(batch: &Batch) -> String {
         (0, _) => String::new(),
         (all, 0) => format!("{passing} of {all} units pass, {failing} fail{}\n", named(batch, "fail")),
         (all, _) => format!(
-            "{passing} of {all} units pass, {failing} fail{}; of {not_known} it is not known{} (a figure is missing or too uncertain, so they have not passed)\n",
+            "{passing} of {all} units pass, {failing} fail{}; of {not_known} it is not known{} ({NOT_PASSED})\n",
             named(batch, "fail"),
             named(batch, "not known")
         ),
     }
 }
+
+/// Reasons why a unit that breaks no limit has not passed.
+pub(super) const NOT_PASSED: &str =
+    "a figure is missing or too uncertain, or a record that was held out is not predicted, so they have not passed";
 
 /// The first units that are judged so, in brackets.
 pub(super) fn named(batch: &Batch, word: &str) -> String {
@@ -125,9 +129,11 @@ mod tests {
     #[test]
     fn doubt_and_what_is_not_known_are_said() {
         let reasons = || vec!["sensitivity is not known".to_owned()];
-        let batch =
+        let mut batch =
             batch(&[Judged::Passes, Judged::Fails(reasons()), Judged::NotKnown(reasons()), Judged::Passes, Judged::Passes]);
+        batch.rows[3].0.warnings.push("gap".to_owned());
         let text = text(&batch);
+        assert!(text.lines().any(|line| line.ends_with("pass  warned of gap")), "{text}");
         for part in [
             "the verdict's probability is below 0.8 in 5 of 5 units, 0.60 in the middle",
             "3 of 5 units pass, 1 fail (U1); of 1 it is not known (U2) (a figure is missing",

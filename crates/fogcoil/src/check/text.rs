@@ -71,7 +71,11 @@ fn overview(analysis: &Analysis) -> Vec<Vec<String>> {
         rows.push(row("interval", significant(instants.interval, 4), "s"));
         rows.push(row("jitter, rms", significant(instants.jitter, 2), "s"));
         let missing: usize = instants.gaps.iter().map(|gap| gap.missing).sum();
-        rows.push(row("gaps", instants.gaps.len().to_string(), &format!("({missing} rows missing)")));
+        rows.push(row(
+            "gaps",
+            instants.gaps.len().to_string(),
+            &format!("({missing} {} missing)", if missing == 1 { "row" } else { "rows" }),
+        ));
     }
     rows
 }

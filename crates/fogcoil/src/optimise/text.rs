@@ -60,8 +60,8 @@ pub(super) fn designs(plan: &Plan, found: &Found, best: &[usize]) -> Vec<Vec<Str
     let known: Vec<Measure> =
         Measure::ALL.into_iter().filter(|m| plan.asks(Measure::needs_tolerances) || !m.needs_tolerances()).collect();
     let numbers = |measures: &Measures| known.iter().map(|m| significant(m.of(measures), 3)).collect::<Vec<_>>();
-    let keys = plan.variants.factors.iter().map(|factor| factor.key.rsplit('.').next().unwrap_or_default().to_owned());
-    let head = [vec![String::new()], known.iter().map(|m| m.name().to_owned()).collect(), keys.collect()].concat();
+    let keys: Vec<&str> = plan.variants.factors.iter().map(|factor| factor.key.as_str()).collect();
+    let head = [vec![String::new()], known.iter().map(|m| m.name().to_owned()).collect(), within_groups(&keys)].concat();
     let mut rows = vec![head, [vec!["drawing".to_owned()], numbers(&found.drawn)].concat()];
     for n in shown(best.len()) {
         let tried = &found.all[best[n]];
@@ -70,6 +70,13 @@ pub(super) fn designs(plan: &Plan, found: &Found, best: &[usize]) -> Vec<Vec<Str
         rows.push([vec![name], numbers(&tried.measures), values].concat());
     }
     rows
+}
+
+/// Keys without the group that they begin with, but where two would be the same.
+fn within_groups(keys: &[&str]) -> Vec<String> {
+    let within = |key: &str| key.split_once('.').map_or(key, |(_, rest)| rest).to_owned();
+    let alone = |key: &str| keys.iter().filter(|other| within(other) == within(key)).count() == 1;
+    keys.iter().map(|key| if alone(key) { within(key) } else { (*key).to_owned() }).collect()
 }
 
 /// The designs of a front of so many that are shown: evenly over it, both ends among them.
@@ -166,4 +173,17 @@ pub(super) fn at_ends(plan: &Plan, found: &Found, best: &[usize]) -> Option<Stri
     let all: Vec<String> = plan.variants.factors.iter().zip(&optimum.values).filter_map(at).collect();
     (!all.is_empty())
         .then(|| format!("at an end of its range in the plan: {}; a wider range may give a better design", all.join(", ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_column_names_the_part_that_it_is_of() {
+        let keys = ["spool.hub_thickness_mm", "spool.flanges[0].thickness_mm", "winding.tails_m.ccw", "dehomogenization"];
+        assert_eq!(within_groups(&keys), ["hub_thickness_mm", "flanges[0].thickness_mm", "tails_m.ccw", "dehomogenization"]);
+        let materials = ["spool.material", "coil.material", "winding.layers"];
+        assert_eq!(within_groups(&materials), ["spool.material", "coil.material", "layers"]);
+    }
 }

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use crate::input::CoilCase;
+use crate::input::{CoilCase, mean_diameter};
 use crate::units::to_mm;
 
 /// Whether the dimensions that the winding decides follow it.
@@ -101,8 +101,8 @@ impl Dimensions {
             design.sensor.y = before.sensor.y + (design.body.height - before.body.height) / 2.0;
         }
         if !varied(SAGNAC) {
-            let across = |design: &coil::Design| design.winding.inner_radius + design.body.outer_radius;
-            design.optics.sagnac_diameter = before.optics.sagnac_diameter + across(design) - across(before);
+            let [now, then] = [mean_diameter(&design.body, &case.winding), mean_diameter(&before.body, &drawn.winding)];
+            design.optics.sagnac_diameter = before.optics.sagnac_diameter + now - then;
         }
     }
 }

@@ -97,7 +97,12 @@ fn a_bad_value_in_the_coil() {
         ("mk: 167.0", "mk: 0.0067", "spool.material.conductivity_w_per_mk", "0.0067 W/(m K) is less than 0.01 W/(m K)"),
         ("kgk: 1005.0", "kgk: 1.005", "surroundings.medium.specific_heat_j_per_kgk", "the least accepted"),
         ("outer_radius_mm: 48.825", "outer_radius_mm: 48.0", "coil.outer_radius_mm", "the winding reaches 48.8229 mm"),
-        ("outer_radius_mm: 48.825", "outer_radius_mm: 5.325", "coil.outer_radius_mm", "not greater than winding.inner_radius_mm"),
+        (
+            "outer_radius_mm: 48.825",
+            "outer_radius_mm: 5.325",
+            "coil.outer_radius_mm",
+            "5.325 mm is not greater than winding.inner_radius_mm, 43.5 mm; give both as radii of the wound coil: either may be a diameter or a thickness",
+        ),
         ("cw_climbs: Right", "start_mm: -0.1, cw_climbs: Right", "winding.start_mm", "give more than -0.0850"),
         ("cw_climbs: Right", "end_mm: 18.2, cw_climbs: Right", "winding.end_mm", "give less than 18.1054"),
         ("cw_climbs: Right", "end_mm: -1.0, cw_climbs: Right", "winding.end_mm", "above start"),

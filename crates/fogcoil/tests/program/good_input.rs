@@ -283,8 +283,35 @@ fn the_effective_diameter_is_the_mean_one_unless_given_and_another_is_noted() {
         case.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
     };
     assert_eq!([noted("93.5"), noted("91.0")].concat(), "");
-    assert!(noted("95.0").contains("95 mm is not the coil's mean diameter, 92.325 mm"), "{}", noted("95.0"));
+    assert!(noted("95.0").contains("95 mm is not the mean diameter of the coil, 92.325 mm"), "{}", noted("95.0"));
     assert!(noted("80.0").contains("lies outside the coil"), "{}", noted("80.0"));
+}
+
+#[test]
+fn in_potting_thicker_than_the_winding_the_effective_diameter_is_that_of_the_turns() {
+    let folder = Folder::new();
+    let given = "        sagnac_diameter_mm: 92.325,\n";
+    let read = |outer: &str, diameter: &str| {
+        let text = change(COIL, "outer_radius_mm: 48.825", &format!("outer_radius_mm: {outer}"));
+        fogcoil::input::read_coil(&folder.write("coil.ron", change(&text, given, diameter))).unwrap()
+    };
+    let diameter = |case: &fogcoil::input::CoilCase| case.design.optics.sagnac_diameter;
+    let ids = |case: &fogcoil::input::CoilCase| case.warnings.iter().map(|note| note.remark.id()).collect::<Vec<_>>();
+    // room of a drawing, less than the pitch of 0.17 mm
+    let room = read("48.95", "");
+    assert!(diameter(&room) == room.winding.spec().inner_radius + 48.95e-3 && ids(&room).is_empty(), "{}", diameter(&room));
+    let thick = read("55.0", "");
+    let turns = thick.winding.turns();
+    let mean = turns.iter().map(|turn| 2.0 * turn.r).sum::<f64>() / turns.len() as f64;
+    assert!((diameter(&thick) - mean).abs() < 2e-5, "{} {mean}", diameter(&thick));
+    assert_eq!(ids(&thick), ["unfilled-coil"]);
+    // that diameter is right by hand, too, and the body's is not
+    let by_hand = |millimetres: f64| read("55.0", &format!("        sagnac_diameter_mm: {millimetres},\n"));
+    assert_eq!(ids(&by_hand(1e3 * mean)), ["unfilled-coil"]);
+    let body = by_hand(98.5);
+    assert_eq!(ids(&body), ["unfilled-coil", "sagnac-differs"]);
+    let said = body.warnings[1].to_string();
+    assert!(said.contains("98.5 mm is not the mean diameter of the turns, 92.3"), "{said}");
 }
 
 #[test]

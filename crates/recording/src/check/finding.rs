@@ -218,7 +218,10 @@ impl Finding {
     fn what(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let unit = &self.unit;
         match &self.kind {
-            FindingKind::Gap { length, missing } => write!(f, "gap of {} s, {missing} rows missing", Short(*length)),
+            FindingKind::Gap { length, missing } => {
+                let rows = if *missing == 1 { "row" } else { "rows" };
+                write!(f, "gap of {} s, {missing} {rows} missing", Short(*length))
+            }
             FindingKind::Jitter { rms, largest } => {
                 write!(f, "intervals vary by {} s rms, {} s at most", Short(*rms), Short(*largest))
             }
@@ -346,6 +349,13 @@ mod tests {
         let written = [0.0, 12.0, -0.5, 6.54321, 1234.56, 12_345_678.0, 0.000_123_456, 0.000_012_3, 99.999, f64::INFINITY];
         let expected = ["0", "12", "-0.5", "6.543", "1235", "1.235e7", "0.0001235", "1.230e-5", "100", "inf"];
         assert_eq!(written.map(|value| Short(value).to_string()), expected);
+    }
+
+    #[test]
+    fn one_missing_row_is_a_row() {
+        let gap = |missing| Finding::whole(FindingKind::Gap { length: 60.0, missing }, Severity::Note).to_string();
+        let [one, two] = [gap(1), gap(2)];
+        assert!(one.contains("gap of 60 s, 1 row missing") && two.contains("gap of 60 s, 2 rows missing"), "{one} {two}");
     }
 
     #[test]
