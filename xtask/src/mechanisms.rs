@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use fogcoil::cache::Cache;
-use fogcoil::comparison::{Comparison, Entry};
+use fogcoil::comparison::Comparison;
 use fogcoil::explain::{Explained, Explanation, Reach, explain};
 use fogcoil::glossary::mechanisms;
 use fogcoil::input;
@@ -35,15 +35,13 @@ pub(crate) fn run() -> Result<bool, Failure> {
     let mut mounted = case.clone();
     let sides = case.design.spool.iter().flat_map(|spool| &spool.flanges).map(|flange| flange.side);
     mounted.design.heat.mounts.extend(sides.map(|side| Mount { side, conductance: CONDUCTANCE }));
-    let drawn = Comparison::measure(&mounted, &Cache::of_user(), &|task| eprintln!("{task}"))?;
-    let is_new = |entry: &Entry| comparison.entries.iter().all(|known| known.id != entry.id);
+    let is_new = |id: &str| comparison.entries.iter().all(|known| known.id != id);
+    let drawn = Comparison::only(&mounted, is_new, &Cache::of_user(), &|task| eprintln!("{task}"))?;
     fs::create_dir_all(PICTURES)?;
     let pictures = Path::new(PICTURES);
     let mut measured = String::new();
     let of = |all| move |entry| (entry, all);
-    let of_mount = drawn.entries.iter().filter(|entry| is_new(entry)).map(of(&drawn));
-    let entries =
-        comparison.entries.iter().map(of(&comparison)).chain(of_mount).chain(on_request.entries.iter().map(of(&on_request)));
+    let entries = [&comparison, &drawn, &on_request].into_iter().flat_map(|all| all.entries.iter().map(of(all)));
     let mut count = 0;
     for (entry, all) in entries {
         let file = format!("{}.svg", entry.id);

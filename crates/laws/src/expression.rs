@@ -134,6 +134,23 @@ impl Expression {
         within(&self.root, k)
     }
 
+    /// What stands within each `step` and `sign`: the expression jumps where one of these goes through 0.
+    pub(crate) fn switches(&self) -> Vec<Self> {
+        fn within(term: &Term, found: &mut Vec<Expression>) {
+            if let Node::One(Function::Step | Function::Sign, inner) = &term.node {
+                found.push(Expression { root: (**inner).clone() });
+            }
+            match &term.node {
+                Node::Number(_) | Node::Value(_) => (),
+                Node::Minus(term) | Node::One(_, term) => within(term, found),
+                Node::Two(_, terms) => terms.iter().for_each(|term| within(term, found)),
+            }
+        }
+        let mut found = Vec::new();
+        within(&self.root, &mut found);
+        found
+    }
+
     /// The same with every name's place moved.
     #[must_use]
     pub fn placed(&self, to: impl Fn(usize) -> usize) -> Self {

@@ -10,5 +10,5 @@ mod unit;
 pub use expression::Expression;
 pub use fault::Fault;
 pub use parse::check_name;
-pub use system::{State, System};
+pub use system::{Run, State, System};
 pub use unit::Unit;

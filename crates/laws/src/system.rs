@@ -8,6 +8,8 @@ use nalgebra::{DMatrix, DVector};
 const STEPS: usize = 4;
 /// γ = 1 − 1/√2: of second order whatever the derivatives, and fast states are followed without overshoot.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
+/// Halvings of a step that place a jump in it.
+const HALVINGS: usize = 30;
 
 /// Change of a state from its value before.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,34 +47,168 @@ pub struct System {
     pub laws: Vec<Expression>,
 }
 
+/// Values of laws through a record: in its rows, and on both sides of each jump between two rows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// Instants, increasing.
+    pub time: Vec<f64>,
+    /// Place of each row among them.
+    pub rows: Vec<usize>,
+    /// Places behind which a law jumps: the next instant follows at once.
+    pub jumps: Vec<usize>,
+    /// Values, `[law][instant]`.
+    pub laws: Vec<Vec<f64>>,
+}
+
+impl Run {
+    /// Values in the rows alone.
+    pub fn in_rows(&self, values: &[f64]) -> Vec<f64> {
+        self.rows.iter().map(|n| values[*n]).collect()
+    }
+
+    fn push(&mut self, system: &System, time: f64, values: &[f64]) {
+        self.time.push(time);
+        self.laws.iter_mut().zip(&system.laws).for_each(|(series, law)| series.push(law.at(values)));
+    }
+}
+
+/// A step between two rows, or a part of one: the inputs are linear in it.
+struct Span<'a> {
+    inputs: &'a [Vec<f64>],
+    /// the row at its end
+    row: usize,
+    time: [f64; 2],
+    /// shares of the interval between the rows
+    ends: [f64; 2],
+}
+
+impl Span<'_> {
+    /// Inputs at a share of the interval between the rows; in a row they are its own, bit by bit.
+    fn inputs(&self, share: f64) -> impl Iterator<Item = f64> {
+        let between = move |of: &Vec<f64>| {
+            let [before, row] = [of[self.row - 1], of[self.row]];
+            if share == 1.0 { row } else { before + share * (row - before) }
+        };
+        self.inputs.iter().map(between)
+    }
+
+    fn at(&self, share: f64) -> f64 {
+        let [before, row] = self.time;
+        if share == 1.0 { row } else { before + share * (row - before) }
+    }
+
+    /// Shares just before and just after a switch goes through 0, all values being linear between those `from` and `to`; none if it does not.
+    fn crossing(&self, switch: &Expression, from: &[f64], to: &[f64]) -> Option<[f64; 2]> {
+        let on = |values: &[f64]| switch.at(values) >= 0.0;
+        let was = on(from);
+        if was == on(to) {
+            return None;
+        }
+        let [first, last] = self.ends;
+        let [mut before, mut after] = self.ends;
+        for _ in 0..HALVINGS {
+            let middle = f64::midpoint(before, after);
+            if !(self.at(before) < self.at(middle) && self.at(middle) < self.at(after)) {
+                break;
+            }
+            let share = (middle - first) / (last - first);
+            let values: Vec<f64> = from.iter().zip(to).map(|(from, to)| from + share * (to - from)).collect();
+            *(if on(&values) == was { &mut before } else { &mut after }) = middle;
+        }
+        Some([before, after])
+    }
+}
+
 impl System {
     /// Values of all laws in every row, `[law][row]`, from parameters and the inputs' series. What an expression is not defined for is NaN from there on.
     ///
     /// # Panics
     /// If counts or lengths differ.
     pub fn run(&self, time: &[f64], parameters: &[f64], inputs: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let run = self.through(time, parameters, inputs);
+        if run.jumps.is_empty() {
+            return run.laws;
+        }
+        run.laws.iter().map(|values| run.in_rows(values)).collect()
+    }
+
+    /// The same with both sides of each instant between two rows at which a `step` or a `sign` jumps, in a law or in what a state follows.
+    ///
+    /// # Panics
+    /// As [`Self::run`].
+    pub fn through(&self, time: &[f64], parameters: &[f64], inputs: &[Vec<f64>]) -> Run {
         assert!(parameters.len() == self.parameters && inputs.len() == self.inputs, "as many values as the laws were made for");
-        let mut laws = vec![Vec::with_capacity(time.len()); self.laws.len()];
+        let switches = self.switches();
+        let steps = if self.states.is_empty() { 1 } else { STEPS };
+        let (laws, rows) = (vec![Vec::with_capacity(time.len()); self.laws.len()], Vec::with_capacity(time.len()));
+        let mut run = Run { time: Vec::with_capacity(time.len()), rows, jumps: Vec::new(), laws };
         let mut values: Vec<f64> = parameters.to_vec();
         values.resize(self.parameters + self.inputs + self.states.len(), 0.0);
-        let mut next = vec![0.0; self.inputs];
-        for row in 0..time.len() {
-            if row == 0 || self.states.is_empty() {
+        for (row, now) in time.iter().enumerate() {
+            if row == 0 {
                 self.place(&mut values, inputs.iter().map(|of| of[row]));
                 self.begin(&mut values);
             } else {
-                let dt = (time[row] - time[row - 1]) / STEPS as f64;
-                for step in 1..=STEPS {
-                    let share = step as f64 / STEPS as f64;
-                    let between = |of: &Vec<f64>| of[row - 1] + share * (of[row] - of[row - 1]);
-                    let at = |of: &Vec<f64>| if step == STEPS { of[row] } else { between(of) };
-                    next.iter_mut().zip(inputs).for_each(|(next, of)| *next = at(of));
-                    self.step(&mut values, &next, dt);
+                let share = |step: usize| step as f64 / steps as f64;
+                for step in 1..=steps {
+                    let span = Span { inputs, row, time: [time[row - 1], *now], ends: [share(step - 1), share(step)] };
+                    self.cross(&span, &switches, &mut values, &mut run);
                 }
             }
-            laws.iter_mut().zip(&self.laws).for_each(|(series, law)| series.push(law.at(&values)));
+            run.rows.push(run.time.len());
+            run.push(self, *now, &values);
         }
-        laws
+        run
+    }
+
+    /// What a law or the change of a state jumps by.
+    fn switches(&self) -> Vec<Expression> {
+        let of = |state: &State| match state {
+            State::Rate { rate, .. } => rate.switches(),
+            State::Play { of, .. } | State::Highest(of) | State::Lowest(of) => of.switches(),
+        };
+        self.laws.iter().flat_map(Expression::switches).chain(self.states.iter().flat_map(of)).collect()
+    }
+
+    /// Through a span; `run` gets both sides of its jumps.
+    fn cross(&self, span: &Span, switches: &[Expression], values: &mut Vec<f64>, run: &mut Run) {
+        let [first, last] = span.ends;
+        let before = if switches.is_empty() { Vec::new() } else { values.clone() };
+        self.go(values, span, [first, last]);
+        let mut crossings: Vec<[f64; 2]> = switches.iter().filter_map(|switch| span.crossing(switch, &before, values)).collect();
+        if crossings.is_empty() {
+            return;
+        }
+        crossings.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        *values = before;
+        let mut at = first;
+        for [until, from] in crossings {
+            // another switch goes through 0 at the same instant
+            if until < at {
+                continue;
+            }
+            self.go(values, span, [at, until]);
+            if run.time.last().is_none_or(|last| *last < span.at(until)) {
+                run.push(self, span.at(until), values);
+            }
+            run.jumps.push(run.time.len() - 1);
+            self.place(values, span.inputs(from));
+            if from < 1.0 {
+                run.push(self, span.at(from), values);
+            }
+            at = from;
+        }
+        self.go(values, span, [at, last]);
+    }
+
+    /// From one share of a span to another.
+    fn go(&self, values: &mut [f64], span: &Span, [from, to]: [f64; 2]) {
+        if self.states.is_empty() {
+            self.place(values, span.inputs(to));
+        } else {
+            let next: Vec<f64> = span.inputs(to).collect();
+            self.step(values, &next, (to - from) * (span.time[1] - span.time[0]));
+        }
     }
 
     fn place(&self, values: &mut [f64], inputs: impl Iterator<Item = f64>) {
@@ -228,6 +364,30 @@ mod tests {
         let extremes = vec![State::Highest(of("u")), State::Lowest(of("u"))];
         let span = run(extremes, "x - y", &time, u, [0.0, 0.0]);
         assert!(span.windows(2).all(|w| w[1] >= w[0]) && (span[399] - 20.0).abs() < 0.02);
+    }
+
+    #[test]
+    fn exact_a_jump_has_its_instant_between_rows() {
+        let time = even(30.0, 5);
+        let system = |states: Vec<State>, law: &str| System { parameters: 2, inputs: 1, states, laws: vec![of(law)] };
+        for when in [30.0, 30.001, 41.7, 59.9, 60.0] {
+            // the input is the time, and a second law, or another place of the same switch, jumps with the first
+            let run = system(vec![], "p * step(u - q) - step(u - q)").through(&time, &[3.0, when], &[time.clone()]);
+            let [jump] = run.jumps[..] else { panic!("{when}: {run:?}") };
+            assert!(run.time[jump] < when + 1e-6 && when < run.time[jump + 1] + 1e-6, "{when}: {run:?}");
+            assert!(run.time.windows(2).all(|w| w[0] < w[1]), "{when}: {run:?}");
+            assert_eq!([run.laws[0][jump], run.laws[0][jump + 1]], [0.0, 2.0]);
+            assert_eq!(run.in_rows(&run.time), time);
+            assert_eq!(run.in_rows(&run.laws[0]), time.iter().map(|t| if *t < when { 0.0 } else { 2.0 }).collect::<Vec<_>>());
+            // a state that grows from then on
+            let grown = vec![State::Rate { rate: of("p * step(u - q)"), first: of("0 * p") }];
+            let x = system(grown, "x").run(&time, &[3.0, when], &[time.clone()]);
+            let exact = |t: f64| 3.0 * (t - when).max(0.0);
+            assert!(time.iter().zip(&x[0]).all(|(t, x)| (x - exact(*t)).abs() < 1e-5), "{when}: {x:?}");
+        }
+        // two jumps within a row: a pulse
+        let pulse = system(vec![], "step(u - p) - step(u - q)").through(&time, &[65.0, 72.0], &[time.clone()]);
+        assert_eq!((pulse.jumps.len(), pulse.time.len()), (2, 9));
     }
 
     #[test]

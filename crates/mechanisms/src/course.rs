@@ -50,25 +50,44 @@ impl Clock {
     /// Between rows the chamber is smooth ([`Smooth::through`]), without corners, wherever readings begin. After a gap one begins `averaging` seconds
     /// before its row.
     pub(crate) fn new(time: &[f64], chamber: &[f64], averaging: f64) -> Self {
-        let smooth = Smooth::through(time, chamber);
-        let mut instants = Vec::with_capacity(time.len());
-        let (mut rows, mut starts) = (Vec::with_capacity(time.len()), Vec::new());
-        for n in 0..time.len() {
-            if averaging > 0.0 && n > 0 && time[n] - time[n - 1] > GAP * averaging {
-                starts.push(instants.len() * BETWEEN);
-                instants.push(time[n] - averaging);
-            }
-            rows.push(instants.len() * BETWEEN);
-            instants.push(time[n]);
-        }
+        let rows: Vec<usize> = (0..time.len()).collect();
+        Self::with_jumps(time, &rows, &[], chamber, averaging)
+    }
+
+    /// The same of a course that jumps behind some of its instants, and is smooth from one jump to the next; `rows` are its places in the recording's rows.
+    pub(crate) fn with_jumps(time: &[f64], rows: &[usize], jumps: &[usize], course: &[f64], averaging: f64) -> Self {
+        let ends = || jumps.iter().map(|n| n + 1).chain([time.len()]);
+        let pieces: Vec<Smooth> = std::iter::once(0)
+            .chain(ends())
+            .zip(ends())
+            .map(|(from, to)| Smooth::through(&time[from..to], &course[from..to]))
+            .collect();
+        let first_of = |piece: &Smooth| piece.time().first().copied().unwrap_or(f64::NEG_INFINITY);
+        let value = |t: f64| pieces[pieces.partition_point(|piece| first_of(piece) <= t).max(1) - 1].at(t).0;
+        let starts: Vec<f64> = rows
+            .windows(2)
+            .map(|w| [time[w[0]], time[w[1]]])
+            .filter(|[before, row]| averaging > 0.0 && row - before > GAP * averaging)
+            .map(|[_, row]| row - averaging)
+            .collect();
+        let mut instants: Vec<f64> = time.iter().chain(&starts).copied().collect();
+        instants.sort_by(f64::total_cmp);
+        instants.dedup();
+        let leaps = |from: f64| jumps.binary_search_by(|n| time[*n].total_cmp(&from)).is_ok();
         let within = |from: f64, to: f64, part: usize| {
             if part == BETWEEN { to } else { from + (to - from) * part as f64 / BETWEEN as f64 }
         };
-        let between = instants.windows(2).flat_map(|w| (1..=BETWEEN).map(|part| within(w[0], w[1], part)).collect::<Vec<_>>());
+        let between = instants.windows(2).flat_map(|w| {
+            // nothing lies within a jump
+            let parts = if leaps(w[0]) { BETWEEN..=BETWEEN } else { 1..=BETWEEN };
+            parts.map(|part| within(w[0], w[1], part)).collect::<Vec<_>>()
+        });
         let fine: Vec<f64> = instants.first().copied().into_iter().chain(between).collect();
+        let place = |t: f64| fine.partition_point(|instant| *instant < t);
         let mut begins = vec![false; fine.len()];
-        starts.into_iter().for_each(|n| begins[n] = true);
-        Self { chamber: fine.iter().map(|t| smooth.at(*t).0).collect(), time: fine, rows, begins }
+        starts.into_iter().for_each(|t| begins[place(t)] = true);
+        let rows = rows.iter().map(|n| place(time[*n])).collect();
+        Self { chamber: fine.iter().map(|t| value(*t)).collect(), time: fine, rows, begins }
     }
 
     /// Places of the instants at which the reading of each row begins and ends; the first begins nowhere.

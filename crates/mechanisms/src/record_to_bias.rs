@@ -170,12 +170,12 @@ impl Prepared {
         Self { earth, ..self }
     }
 
-    /// Response of a model under drives of its own, from rest.
-    pub(crate) fn driven(&self, model: &Reduced, drives: &[Vec<f64>]) -> Series {
-        let clocks: Vec<Clock> = drives.iter().map(|drive| Clock::new(&self.time, drive, self.averaging)).collect();
+    /// Response of a model to a course of one of its drives, by its number, all others at 0: from rest.
+    pub(crate) fn driven(&self, model: &Reduced, drive: usize, clock: &Clock) -> Series {
+        let mut drives = vec![vec![0.0; clock.time.len()]; drive];
+        drives.push(clock.chamber.clone());
         let rest: Vec<f64> = drives.iter().map(|drive| drive[0]).collect();
-        let drives: Vec<Vec<f64>> = clocks.iter().map(|clock| clock.chamber.clone()).collect();
-        Course::new(model, &clocks[0], &drives, &rest).series(model)
+        Course::new(model, clock, &drives, &rest).series(model)
     }
 
     /// Parts per relative change of the spool's expansion; `None` without a spool.

@@ -1,7 +1,7 @@
 //! Mechanisms whose law is text: a user's own.
 
 use crate::catalogue::debond;
-use crate::course::{GAP, Series, add, total};
+use crate::course::{Clock, GAP, Series, add, total};
 use crate::design::heatable_flanges;
 use crate::interpolation::cubic_weights;
 use crate::law_tools::Chain;
@@ -9,7 +9,7 @@ use crate::mechanism::{Change, Effect, Extent, Facts, Mechanism, Naming, Offer, 
 use crate::record_to_bias::Prepared;
 use coil::{Design, Error};
 use diagnosis::{Active, Parameter};
-use laws::System;
+use laws::{Run, System};
 
 /// A mechanism of a user's file.
 #[derive(Debug, Clone, PartialEq)]
@@ -145,6 +145,11 @@ impl Target {
         }
     }
 
+    /// Whether heat carries the change to fibre and thermometer: a jump of it is smooth there.
+    pub const fn is_carried_by_heat(self) -> bool {
+        matches!(self, Self::Chamber | Self::FlangePower)
+    }
+
     /// Whether a design has such a place.
     fn is_in(self, design: &Design) -> bool {
         match self {
@@ -185,20 +190,30 @@ impl Written {
     }
 }
 
-/// Means over the interval that ends at each row of what is momentary and linear between rows; after a gap, over the span of a reading.
-fn means(record: &Prepared, series: &[f64]) -> Vec<f64> {
+/// Means over the interval that ends at each row of what is momentary and linear between the instants of a run; after a gap, over the span of a reading.
+fn means(record: &Prepared, run: &Run, series: &[f64]) -> Vec<f64> {
     let of = |n: usize| {
-        let Some(before) = n.checked_sub(1) else { return series[0] };
-        mean([series[before], series[n]], record.time[n] - record.time[before], record.averaging)
+        let Some(before) = n.checked_sub(1) else { return series[run.rows[0]] };
+        let all = run.rows[before]..=run.rows[n];
+        mean(&run.time[all.clone()], &series[all], record.averaging)
     };
-    (0..series.len()).map(of).collect()
+    (0..run.rows.len()).map(of).collect()
 }
 
-/// Mean of a line over an interval of `dt` \[s\]; of one that is a gap between readings of so much `averaging` \[s\], over the last of these.
-fn mean([first, last]: [f64; 2], dt: f64, averaging: f64) -> f64 {
-    let gap = averaging > 0.0 && dt > GAP * averaging;
-    let began = if gap { last - (last - first) * averaging / dt } else { first };
-    (began + last) / 2.0
+/// Mean of lines from the first instant \[s\] to the last; if that is a gap between readings of so much `averaging` \[s\], over the last of these.
+fn mean(time: &[f64], series: &[f64], averaging: f64) -> f64 {
+    let [first, .., last] = time else { return f64::NAN };
+    let gap = averaging > 0.0 && last - first > GAP * averaging;
+    let began = if gap { last - averaging } else { *first };
+    let part = |(t, x): (&[f64], &[f64])| {
+        if t[1] <= began {
+            return 0.0;
+        }
+        let from = t[0].max(began);
+        let first = if from > t[0] { x[1] - (x[1] - x[0]) * (t[1] - from) / (t[1] - t[0]) } else { x[0] };
+        (first + x[1]) / 2.0 * ((t[1] - from) / (last - began))
+    };
+    time.windows(2).zip(series.windows(2)).map(part).sum()
 }
 
 /// At the rows, of means over the intervals that end there.
@@ -230,18 +245,18 @@ impl Mechanism for Written {
     }
 
     fn effect(&self, chain: &Chain, record: &Prepared, active: &Active) -> Result<Effect, Error> {
-        let told = self.system.run(&record.time, &active.values, &self.seen(record));
+        let run = self.system.through(&record.time, &active.values, &self.seen(record));
         let of = |target: Target| {
             let mut sum: Option<Vec<f64>> = None;
-            for (_, series) in self.targets.iter().zip(&told).filter(|(own, _)| **own == target) {
+            for (_, series) in self.targets.iter().zip(&run.laws).filter(|(own, _)| **own == target) {
                 let sum = sum.get_or_insert_with(|| vec![0.0; series.len()]);
                 add(sum, series, 1.0);
             }
             sum
         };
         let mut change = Change {
-            thermometer: of(Target::Thermometer),
-            rate: of(Target::Rate).map(|rate| means(record, &rate)),
+            thermometer: of(Target::Thermometer).map(|kelvin| run.in_rows(&kelvin)),
+            rate: of(Target::Rate).map(|rate| means(record, &run, &rate)),
             ..Change::none(record)
         };
         let mut follow = |series: Series| {
@@ -249,19 +264,20 @@ impl Mechanism for Written {
             let thermometer = change.thermometer.get_or_insert_with(|| vec![0.0; series.sensor.len()]);
             add(thermometer, &series.sensor, 1.0);
         };
+        let clock = |course: &[f64]| Clock::with_jumps(&run.time, &run.rows, &run.jumps, course, record.averaging);
         if let Some(kelvin) = of(Target::Chamber) {
-            follow(record.driven(&chain.library().base, &[kelvin]));
+            follow(record.driven(&chain.library().base, 0, &clock(&kelvin)));
         }
         if let Some(watts) = of(Target::FlangePower)
             && let Some(heated) = chain.library().heaters.first()
         {
-            follow(record.driven(heated, &[vec![0.0; watts.len()], watts]));
+            follow(record.driven(heated, 1, &clock(&watts)));
         }
         if let Some(open) = of(Target::OpenBond)
             && let Some(openings) = record.openings.first()
         {
             let nodes: Vec<f64> = std::iter::once(0.0).chain(openings.iter().map(|(share, _)| *share)).collect();
-            for (n, share) in means(record, &open).into_iter().enumerate() {
+            for (n, share) in means(record, &run, &open).into_iter().enumerate() {
                 let w = cubic_weights(&nodes, share.clamp(0.0, nodes[nodes.len() - 1]));
                 for (w, (_, parts)) in w[1..].iter().zip(openings) {
                     (0..3).for_each(|p| change.parts[p][n] += w * parts[p][n]);
@@ -269,7 +285,7 @@ impl Mechanism for Written {
             }
         }
         let factor = |target: Target| {
-            of(target).map(|series| means(record, &series).into_iter().map(|x| least(1.0 + x)).collect::<Vec<_>>())
+            of(target).map(|series| means(record, &run, &series).into_iter().map(|x| least(1.0 + x)).collect::<Vec<_>>())
         };
         let (stiffness, expansion) = (factor(Target::Stiffness), factor(Target::Expansion));
         if stiffness.is_some() || expansion.is_some() {
@@ -279,12 +295,12 @@ impl Mechanism for Written {
         }
         if let Some(metres) = of(Target::Tail) {
             for (part, tail) in change.parts.iter_mut().zip(&record.tail) {
-                part.iter_mut().zip(tail).zip(means(record, &metres)).for_each(|((x, tail), metres)| *x += metres * tail);
+                part.iter_mut().zip(tail).zip(means(record, &run, &metres)).for_each(|((x, tail), metres)| *x += metres * tail);
             }
         }
         for (target, places) in [(Target::Shupe, 0..1), (Target::Axial, 1..2), (Target::Radial, 2..3), (Target::Bias, 0..3)] {
             if let Some(relative) = of(target) {
-                let relative = means(record, &relative);
+                let relative = means(record, &run, &relative);
                 for p in places {
                     change.parts[p]
                         .iter_mut()
@@ -319,10 +335,19 @@ mod tests {
 
     #[test]
     fn exact_after_a_gap_a_reading_is_the_mean_of_its_own_span() {
-        assert_eq!(mean([1.0, 5.0], 10.0, 10.0), 3.0);
+        let mean_of = |dt: f64, averaging: f64| mean(&[20.0, 20.0 + dt], &[1.0, 5.0], averaging);
+        assert_eq!(mean_of(10.0, 10.0), 3.0);
         // the last 10 s of a line that rises by 4 in 100 s
-        assert_eq!(mean([1.0, 5.0], 100.0, 10.0), 4.8);
+        assert_eq!(mean_of(100.0, 10.0), 4.8);
         // rows of which nobody said how long a reading is
-        assert_eq!(mean([1.0, 5.0], 100.0, 0.0), 3.0);
+        assert_eq!(mean_of(100.0, 0.0), 3.0);
+    }
+
+    #[test]
+    fn exact_a_reading_in_which_a_law_jumps_is_the_mean_of_both_sides() {
+        let (time, series) = ([0.0, 7.0, 7.0 + 1e-9, 10.0], [0.0, 0.0, 1.0, 1.0]);
+        assert!((mean(&time, &series, 10.0) - 0.3).abs() < 1e-9);
+        // of the last 5 s
+        assert!((mean(&time, &series, 5.0) - 0.6).abs() < 1e-9);
     }
 }

@@ -126,7 +126,9 @@ fn checked(source: Source) -> Result<MechanismCase, InputError> {
         let own = Parameter::new(reported(&parameter.name, &parameter.unit), prior);
         let k = parameters.len();
         let plays = |state: &State| matches!(state, State::Play { width, .. } if width.has(k));
-        let jumps = written.iter().chain(states.iter().flat_map(expressions)).any(|expression| expression.jumps(k));
+        // what heat has to carry follows the instant of a jump smoothly
+        let at_once = written.iter().zip(&targets).filter(|(_, target)| !target.is_carried_by_heat()).map(|(law, _)| law);
+        let jumps = at_once.chain(states.iter().flat_map(expressions)).any(|expression| expression.jumps(k));
         // where a small step changes nothing, or all at once, a larger one tells the slope
         parameters.push(if jumps || states.iter().any(plays) { own.with_step(JUMPING_STEP) } else { own });
     }
@@ -336,6 +338,22 @@ mod tests {
         let spool = time.iter().map(|t| if *t > 0.0 { 1.0 } else { 0.0 }).collect();
         let rate = system.run(&time, &[0.5, 600.0], &[spool, vec![5.0; 61]]);
         assert!((rate[0][60] - 0.5 * (-595.0_f64 / 600.0).exp()).abs() < 2e-3, "{}", rate[0][60]);
+    }
+
+    #[test]
+    fn the_instant_of_a_jump_is_stepped_by_as_much_as_shows() {
+        let switched = |law: &str, unit: &str| {
+            let parameters = format!(
+                "(name: \"size\", unit: \"{unit}\", prior: Normal(0.0, 0.5)), (name: \"when\", unit: \"s\", prior: Uniform(0.0, 9000.0))"
+            );
+            let text = format!(
+                "(id: \"switch\", title: \"A switch\", stage: Thermal, parameters: [{parameters}], laws: [{law}(\"size * step(time - when)\")])"
+            );
+            read(&text).expect("a mechanism").mechanism.parameters.iter().map(|p| p.step).collect::<Vec<_>>()
+        };
+        let smooth = Parameter::new("size", Prior::Normal { mean: 0.0, sd: 1.0 }).step;
+        assert_eq!(switched("FlangePower", "W"), [smooth, smooth]);
+        assert_eq!(switched("Rate", "deg/h"), [smooth, JUMPING_STEP]);
     }
 
     #[test]

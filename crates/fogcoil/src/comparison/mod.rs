@@ -91,12 +91,17 @@ impl Comparison {
     /// # Errors
     /// As [`Self::measure`].
     pub fn on_request(case: &CoilCase, cache: &Cache, progress: &dyn Fn(Step)) -> Result<Self, Error> {
-        let mut all = Responses::among(case, cache, &[CATALOGUE, ON_REQUEST].concat())?;
+        let all = Responses::among(case, cache, &[CATALOGUE, ON_REQUEST].concat())?;
         let asked = |id: &str| ON_REQUEST.iter().any(|mechanism| mechanism.facts().id == id);
-        all.entries.retain(|entry| asked(&entry.id));
-        let Responses { gyro, truths, .. } = &mut all;
-        truths.retain(|truth| asked(&gyro.mechanisms()[truth.mechanism].id));
-        Self::among(case, all, progress)
+        Self::among(case, all.only(asked), progress)
+    }
+
+    /// The same for the mechanisms that are chosen by their ids, against all.
+    ///
+    /// # Errors
+    /// As [`Self::measure`].
+    pub fn only(case: &CoilCase, chosen: impl Fn(&str) -> bool, cache: &Cache, progress: &dyn Fn(Step)) -> Result<Self, Error> {
+        Self::among(case, Responses::of(case, cache)?.only(chosen), progress)
     }
 
     fn among(case: &CoilCase, responses: Responses, progress: &dyn Fn(Step)) -> Result<Self, Error> {
@@ -129,6 +134,14 @@ impl Comparison {
 }
 
 impl Responses {
+    /// Those of the mechanisms that are chosen by their ids.
+    fn only(mut self, chosen: impl Fn(&str) -> bool) -> Self {
+        self.entries.retain(|entry| chosen(&entry.id));
+        let gyro = &self.gyro;
+        self.truths.retain(|truth| chosen(&gyro.mechanisms()[truth.mechanism].id));
+        self
+    }
+
     /// Runs every named mechanism at its typical size.
     pub(crate) fn of(case: &CoilCase, cache: &Cache) -> Result<Self, Error> {
         Self::among(case, cache, CATALOGUE)

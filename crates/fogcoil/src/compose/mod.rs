@@ -11,6 +11,7 @@ use serde_json::{Value, json};
 
 use crate::Error;
 use crate::input::{MechanismCase, check_mechanism};
+use crate::table::significant;
 use laws::{Law, Ranges};
 
 /// A composed law of one or two terms, with its sizes.
@@ -209,6 +210,13 @@ impl Search<'_> {
         self.cases.iter().find(|(case, _)| case.mechanism.id == id)
     }
 
+    /// Whether a term is a knee that lies so near the cold end of its temperature that the records see a straight line.
+    fn is_straight(&self, id: &str, estimates: &[Estimate]) -> bool {
+        let Scene { temperatures, noise, .. } = *self.with.scene();
+        let range = if id == "composed-knee-chamber" { self.with.chamber_range(self.fitted.len()) } else { temperatures };
+        is_straight(id, estimates, range, noise)
+    }
+
     /// Laws as they are told.
     fn told(&self, found: Found, accepted: bool) -> Composed {
         let Found { law: diagnosis::Composed { fit, laws, gain, others, .. }, held, .. } = found;
@@ -224,7 +232,7 @@ impl Search<'_> {
         let term = |(place, active): (usize, &Active)| {
             let (case, known) = self.case(&self.with.mechanisms()[active.mechanism].id)?;
             let estimates = fit.estimates(&self.with, place);
-            let known = if is_straight(&case.mechanism.id, &estimates, self.with.scene()) { STRAIGHT } else { known };
+            let known = if self.is_straight(&case.mechanism.id, &estimates) { STRAIGHT } else { known };
             Some(Term { case: case.clone(), known, values: active.values.clone(), estimates })
         };
         let other = |(law, behind): &(usize, f64)| {
@@ -328,6 +336,11 @@ impl Composed {
         self.terms.iter().map(of).collect()
     }
 
+    /// Two of its terms that are one law.
+    fn followed(&self) -> Option<Followed> {
+        self.terms.iter().find_map(|straight| self.terms.iter().find_map(|lagging| Followed::of(straight, lagging)))
+    }
+
     /// The law as one JSON object.
     pub(crate) fn json(&self) -> Value {
         let term = |term: &Term| {
@@ -344,6 +357,7 @@ impl Composed {
         };
         json!({
             "terms": self.terms.iter().map(term).collect::<Vec<_>>(),
+            "one_law": self.followed().map(|followed| followed.json()),
             "gain": self.gain,
             "others": self.others.iter().map(|(_, id, behind)| json!({"id": id, "behind": behind})).collect::<Vec<_>>(),
             "accepted": self.accepted,
@@ -364,6 +378,7 @@ impl Composed {
             );
             out.extend(mechanism.equation.lines().map(|line| format!("  {line}\n")));
         }
+        out.extend(self.followed().map(|followed| followed.text()));
         let by = format!("It gains {:.1} of ln evidence, the choice among all laws paid for", self.gain);
         let others: Vec<String> = self.others.iter().map(|(title, _, behind)| format!("{title} ({})", lower(*behind))).collect();
         let others =
@@ -384,13 +399,49 @@ impl Composed {
     }
 }
 
-/// Whether a knee of the coil's or the spool's temperature lies so near the cold end of what these were that the law is a straight line.
-fn is_straight(id: &str, estimates: &[Estimate], Scene { temperatures: [low, high], noise, .. }: &Scene) -> bool {
-    let of = |name: &str| estimates.iter().find(|estimate| estimate.name.starts_with(name)).map(|estimate| estimate.value);
-    let Some((at, size)) = of("at_").zip(of("size_")) else { return false };
-    let below = (at - low).max(0.0);
-    let is_own = ["composed-knee-coil", "composed-knee-spool"].contains(&id);
-    is_own && below < EDGE * (high - low) && (size * below).abs() < UNSEEN * noise
+/// Whether a law is a knee of a temperature that lies so near the cold end of its range that it is a straight line.
+fn is_straight(id: &str, estimates: &[Estimate], [low, high]: [f64; 2], noise: f64) -> bool {
+    let Some((at, size)) = find(estimates, "at_").zip(find(estimates, "size_")) else { return false };
+    let below = (at.value - low).max(0.0);
+    id.starts_with("composed-knee-") && below < EDGE * (high - low) && (size.value * below).abs() < UNSEEN * noise
+}
+
+/// The estimate of a parameter by how its name begins.
+fn find<'a>(estimates: &'a [Estimate], name: &str) -> Option<&'a Estimate> {
+    estimates.iter().find(|estimate| estimate.name.starts_with(name))
+}
+
+/// Two terms that are one law: a straight line of a temperature T less its lag, size (T - at) - size (T - x), is the straight line of what follows it.
+struct Followed {
+    of: String,
+    size: Estimate,
+    lag: Estimate,
+}
+
+impl Followed {
+    /// A straight line of a temperature and a lag of the same one with the opposite size, as far as the records tell both.
+    fn of(straight: &Term, lagging: &Term) -> Option<Self> {
+        let of = straight.case.mechanism.id.strip_prefix("composed-knee-").filter(|_| straight.known == STRAIGHT)?;
+        let of_lag = lagging.case.mechanism.id.strip_prefix("composed-lag-")?;
+        let (size, opposite) = find(&straight.estimates, "size_").zip(find(&lagging.estimates, "size_"))?;
+        let ([low, high], [most, least]) = (size.ci90, opposite.ci90.map(|size| -size));
+        let lag = find(&lagging.estimates, "tau_")?;
+        (of == of_lag && least <= high && low <= most).then(|| Self { of: of.to_owned(), size: size.clone(), lag: lag.clone() })
+    }
+
+    fn json(&self) -> Value {
+        let Self { of, size, lag } = self;
+        let told = |Estimate { value, ci90, .. }: &Estimate| json!({"value": value, "ci90": ci90});
+        json!({"follows": of, "size_deg_per_h_per_k": told(size), "lag_s": told(lag)})
+    }
+
+    fn text(&self) -> String {
+        let Self { of, size, lag } = self;
+        let [of_size, of_lag] = [size, lag].map(|estimate| significant(estimate.value, 4));
+        format!(
+            "Both are one law: a rate of {of_size} (deg/h)/K of a temperature that follows that of the {of} with a lag of {of_lag} s.\n"
+        )
+    }
 }
 
 /// The number of a term before what is its own; nothing where there is but one.
@@ -402,23 +453,56 @@ fn numbered(k: usize, terms: usize) -> String {
 mod tests {
     use super::*;
 
+    fn estimate(name: &str, value: f64, ci90: [f64; 2]) -> Estimate {
+        Estimate { name: name.into(), value, ci90 }
+    }
+
     #[test]
     fn a_knee_at_the_cold_end_is_a_straight_line() {
-        let scene = Scene { temperatures: [-34.5, 45.5], noise: 0.01, earth: None };
         let of = |id: &str, size: f64, at: f64| {
-            let of = |name: &str, value: f64| Estimate { name: name.into(), value, ci90: [value; 2] };
-            is_straight(id, &[of("size_deg_per_h_per_k", size), of("at_c", at)], &scene)
+            let of = |name: &str, value: f64| estimate(name, value, [value; 2]);
+            is_straight(id, &[of("size_deg_per_h_per_k", size), of("at_c", at)], [-34.5, 45.5], 0.01)
         };
-        let knee = "composed-knee-spool";
-        assert!(of(knee, -0.01, -34.0) && of(knee, 0.003, -26.6) && of(knee, 0.01, -40.0));
-        // seen, or not at the cold end
-        assert!(!of(knee, -0.01, -30.0) && !of(knee, 1e-3, -26.4) && !of(knee, 1e-3, 45.0));
-        assert!(!of("composed-threshold-coil", 1e-3, -34.0) && !of("composed-knee-chamber", 1e-3, -34.0));
+        for body in ["chamber", "spool", "coil"] {
+            let knee = &format!("composed-knee-{body}");
+            assert!(of(knee, -0.01, -34.0) && of(knee, 0.003, -26.6) && of(knee, 0.01, -40.0));
+            // seen, or not at the cold end
+            assert!(!of(knee, -0.01, -30.0) && !of(knee, 1e-3, -26.4) && !of(knee, 1e-3, 45.0));
+        }
+        assert!(!of("composed-threshold-coil", 1e-3, -34.0));
         // as the laws are called that are composed
+        let scene = Scene { temperatures: [-34.5, 45.5], noise: 0.01, earth: None };
         let ids: Vec<String> = laws::laws(&Ranges::new(&scene, 0.01, 3e4, [1.0; 4])).into_iter().map(|law| law.text).collect();
         assert!(
             ids.iter().any(|text| text.contains("id: \"composed-knee-coil\"") && text.contains("(name: \"at\", unit: \"degC\""))
         );
+    }
+
+    #[test]
+    fn a_straight_line_less_a_lag_is_the_line_of_what_follows() {
+        let scene = Scene { temperatures: [-34.5, 45.5], noise: 0.01, earth: None };
+        let all = laws::laws(&Ranges::new(&scene, 0.01, 3e4, [1.0; 4]));
+        let term = |id: &str, known: &'static str, estimates: Vec<Estimate>| {
+            let law = all.iter().find(|law| law.text.contains(&format!("id: \"{id}\""))).expect("a law");
+            let case = check_mechanism("law".as_ref(), law.text.clone()).expect("a mechanism");
+            Term { case, known, values: Vec::new(), estimates }
+        };
+        let size = |value: f64| estimate("size_deg_per_h_per_k", value, [value - 2e-4, value + 2e-4]);
+        let knee =
+            |known, value| term("composed-knee-chamber", known, vec![size(value), estimate("at_c", -34.0, [-34.5, -33.0])]);
+        let lag = |of: &str, value| {
+            term(&format!("composed-lag-{of}"), "slow", vec![size(value), estimate("tau_s", 2673.0, [2594.0, 2756.0])])
+        };
+        let told = |straight: Term, lagging: Term| Followed::of(&straight, &lagging).map(|followed| followed.text());
+        for sign in [1.0, -1.0] {
+            let text = told(knee(STRAIGHT, 0.012 * sign), lag("chamber", -0.0118 * sign)).expect("one law");
+            assert!(text.contains("0.012") && text.contains("follows that of the chamber with a lag of 2673 s"), "{text}");
+        }
+        // a knee that is seen, another temperature, another size, the same sign
+        assert_eq!(told(knee("contact", 0.012), lag("chamber", -0.012)), None);
+        assert_eq!(told(knee(STRAIGHT, 0.012), lag("coil", -0.012)), None);
+        assert_eq!(told(knee(STRAIGHT, 0.012), lag("chamber", -0.009)), None);
+        assert_eq!(told(knee(STRAIGHT, 0.012), lag("chamber", 0.012)), None);
     }
 
     #[test]

@@ -152,6 +152,12 @@ impl<'m> Gyro<'m> {
         self.records.iter().take(records).map(of).fold([0.0; 4], most)
     }
 
+    /// The coldest and the hottest that the chamber was in the first of its records \[°C\].
+    pub fn chamber_range(&self, records: usize) -> [f64; 2] {
+        let all = self.records.iter().take(records).flat_map(|record| &record.chamber);
+        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| [low.min(*t), high.max(*t)])
+    }
+
     /// Range of the coil in the fitted records, and noise of the gyroscope.
     pub fn scene(&self) -> &Scene {
         &self.scene

@@ -1,9 +1,11 @@
 //! Laws that are written as text against the program's own mechanisms, and against what they must do exactly.
 
+use super::common;
 use super::{gyro, rms};
+use coil::{Contact, Design, Drive, Dynamics, Heater, Profile, STANDARD, Side};
 use diagnosis::{Active, ForwardModel, Parameter, Prior};
 use laws::{Expression, State, System};
-use mechanisms::{Body, CATALOGUE, Gyro, Input, Mechanism, Prepared, RATE, SPOOL, Stage, Target, Written};
+use mechanisms::{Body, CATALOGUE, Gyro, Input, Library, Mechanism, Prepared, RATE, SPOOL, Stage, Target, Written};
 
 /// A mechanism with parameters a and b that sees the spool's thermometer, the coil's temperature, the rate of the former, the chamber and the time.
 fn written(states: &[(&str, &str)], target: Target, law: &str) -> Written {
@@ -82,8 +84,8 @@ fn exact_a_law_that_says_what_a_mechanism_says_does_what_it_does() {
 
 #[test]
 fn exact_heat_into_a_flange_warms_as_a_heater_does() {
-    // on from the first row, but for the interval in which a course that is given rises
-    let power = written(&[], Target::FlangePower, "a * step(time - 30)");
+    // on from the first row
+    let power = written(&[], Target::FlangePower, "a * step(time - 0.01)");
     let theirs = of_catalogue("self-heating", &[0.05, 0.0], Some(1.0));
     let ours = adds(&power, [0.05, 0.0]);
     let late = 60..720;
@@ -92,6 +94,77 @@ fn exact_heat_into_a_flange_warms_as_a_heater_does() {
         let (off, size) = (rms(&super::minus(&part(&ours[channel]), &part(&theirs[channel]))), rms(&part(&theirs[channel])));
         assert!(off < 0.02 * size, "channel {channel}: off by {off:e} of {size:e}");
     }
+}
+
+/// A flange and a film: few models, and nothing that is left to the medium.
+fn heated(power: f64) -> Design {
+    let mut heated = super::design();
+    common::spool(&mut heated).flanges[0].contact = Contact::Gap;
+    heated.heat.film = Some(8.0);
+    heated.heat.heaters.push(Heater { side: Side::Right, power });
+    heated
+}
+
+#[test]
+fn a_power_that_is_switched_within_a_row_acts_from_its_instant() {
+    const POWER: f64 = 0.25;
+    let design = heated(POWER);
+    let mut unheated = design.clone();
+    unheated.heat.heaters.clear();
+    let library = Library::build(&unheated, CATALOGUE, &|_| ()).expect("library");
+    let power = written(&[], Target::FlangePower, "a * step(time - b)");
+    let (time, chamber) = super::course();
+    let prepared = Prepared::new(&library, &time, &chamber, 60.0).expect("prepared");
+    let gyro = Gyro::new(library, &[&power], vec![prepared]).expect("gyro");
+    let ours = |when: f64| added(&gyro, "written", vec![POWER, when], None);
+    // the chain, whose courses are straight lines, at seconds: off, on from the second that follows, 60 means a row
+    let scale = bias::units::DEG_PER_H_PER_RAD_PER_S;
+    let dynamics = Dynamics::new(&design, &[Drive::Chamber, Drive::Heaters], &STANDARD).expect("dynamics");
+    let exact = |when: u32| {
+        let rows = 720;
+        let seconds: Vec<u32> = (0..=60 * (rows - 1)).filter(|t| *t % 60 == 0 || (18_000..24_000).contains(t)).collect();
+        let instants: Vec<f64> = seconds.iter().map(|t| f64::from(*t)).collect();
+        let on = seconds.iter().map(|t| f64::from(u8::from(*t >= when))).collect();
+        let told = dynamics.simulate(&Profile { time: instants, drives: vec![vec![20.0; seconds.len()], on] }).expect("run");
+        let (mut spool, mut rate, mut sum) = (Vec::new(), Vec::new(), 0.0);
+        for (n, response) in told.iter().enumerate() {
+            let dt = if n > 0 { f64::from(seconds[n] - seconds[n - 1]) } else { 0.0 };
+            sum += scale * response.rate() * dt;
+            if seconds[n].is_multiple_of(60) {
+                spool.push(response.sensor - 20.0);
+                rate.push(std::mem::take(&mut sum) / 60.0);
+            }
+        }
+        [spool, rate]
+    };
+    // half a second of the straight line that rises in the second before
+    for when in [19_980, 19_981, 20_010, 20_035, 20_040] {
+        close(&format!("on at {when} s"), &ours(f64::from(when) - 0.5), &exact(when), 1e-2);
+    }
+    // from row to row the response follows the instant without a jump, and its slope, too
+    let change = |from: f64, by: f64| {
+        let [later, sooner] = [ours(from + by), ours(from)];
+        [SPOOL, RATE].map(|channel| super::minus(&later[channel], &sooner[channel]))
+    };
+    let whole = change(19_990.0, 40.0);
+    let mut parts = [vec![0.0; 720], vec![0.0; 720]];
+    for k in 0..8 {
+        let part = change(19_990.0 + 5.0 * f64::from(k), 5.0);
+        for channel in [SPOOL, RATE] {
+            let share = rms(&part[channel]) / rms(&whole[channel]);
+            assert!((0.1..0.2).contains(&share), "part {k}, channel {channel}: {share} of the change");
+            parts[channel].iter_mut().zip(&part[channel]).for_each(|(sum, x)| *sum += x);
+        }
+    }
+    close("all parts together", &parts, &whole, 1e-9);
+}
+
+#[test]
+fn exact_a_rate_that_jumps_within_a_row_is_the_mean_of_that_row() {
+    let steps = written(&[], Target::Rate, "a * step(time - b)");
+    let rate = &adds(&steps, [0.3, 6015.0])[RATE];
+    assert!(rate[..101].iter().all(|r| r.abs() < 1e-12) && rate[102..].iter().all(|r| (r - 0.3).abs() < 1e-12));
+    assert!((rate[101] - 0.3 * 45.0 / 60.0).abs() < 1e-6, "{}", rate[101]);
 }
 
 #[test]
