@@ -372,7 +372,7 @@ mod tests {
         let system = |states: Vec<State>, law: &str| System { parameters: 2, inputs: 1, states, laws: vec![of(law)] };
         for when in [30.0, 30.001, 41.7, 59.9, 60.0] {
             // the input is the time, and a second law, or another place of the same switch, jumps with the first
-            let run = system(vec![], "p * step(u - q) - step(u - q)").through(&time, &[3.0, when], &[time.clone()]);
+            let run = system(vec![], "p * step(u - q) - step(u - q)").through(&time, &[3.0, when], std::slice::from_ref(&time));
             let [jump] = run.jumps[..] else { panic!("{when}: {run:?}") };
             assert!(run.time[jump] < when + 1e-6 && when < run.time[jump + 1] + 1e-6, "{when}: {run:?}");
             assert!(run.time.windows(2).all(|w| w[0] < w[1]), "{when}: {run:?}");
@@ -381,12 +381,12 @@ mod tests {
             assert_eq!(run.in_rows(&run.laws[0]), time.iter().map(|t| if *t < when { 0.0 } else { 2.0 }).collect::<Vec<_>>());
             // a state that grows from then on
             let grown = vec![State::Rate { rate: of("p * step(u - q)"), first: of("0 * p") }];
-            let x = system(grown, "x").run(&time, &[3.0, when], &[time.clone()]);
+            let x = system(grown, "x").run(&time, &[3.0, when], std::slice::from_ref(&time));
             let exact = |t: f64| 3.0 * (t - when).max(0.0);
             assert!(time.iter().zip(&x[0]).all(|(t, x)| (x - exact(*t)).abs() < 1e-5), "{when}: {x:?}");
         }
         // two jumps within a row: a pulse
-        let pulse = system(vec![], "step(u - p) - step(u - q)").through(&time, &[65.0, 72.0], &[time.clone()]);
+        let pulse = system(vec![], "step(u - p) - step(u - q)").through(&time, &[65.0, 72.0], std::slice::from_ref(&time));
         assert_eq!((pulse.jumps.len(), pulse.time.len()), (2, 9));
     }
 
