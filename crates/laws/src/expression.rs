@@ -134,11 +134,13 @@ impl Expression {
         within(&self.root, k)
     }
 
-    /// What stands within each `step` and `sign`: the expression jumps where one of these goes through 0.
-    pub(crate) fn switches(&self) -> Vec<Self> {
-        fn within(term: &Term, found: &mut Vec<Expression>) {
-            if let Node::One(Function::Step | Function::Sign, inner) = &term.node {
-                found.push(Expression { root: (**inner).clone() });
+    /// What stands within each `step` and `sign`: the expression jumps where one of these goes through 0. With it, whether it is on beyond 0 alone: a `sign`
+    /// has a value of its own at 0, and is a switch of either kind.
+    pub(crate) fn switches(&self) -> Vec<(Self, bool)> {
+        fn within(term: &Term, found: &mut Vec<(Expression, bool)>) {
+            if let Node::One(function @ (Function::Step | Function::Sign), inner) = &term.node {
+                let kinds = if *function == Function::Sign { &[false, true][..] } else { &[false] };
+                found.extend(kinds.iter().map(|beyond| (Expression { root: (**inner).clone() }, *beyond)));
             }
             match &term.node {
                 Node::Number(_) | Node::Value(_) => (),

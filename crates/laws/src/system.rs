@@ -98,8 +98,8 @@ impl Span<'_> {
     }
 
     /// Shares just before and just after a switch goes through 0, all values being linear between those `from` and `to`; none if it does not.
-    fn crossing(&self, switch: &Expression, from: &[f64], to: &[f64]) -> Option<[f64; 2]> {
-        let on = |values: &[f64]| switch.at(values) >= 0.0;
+    fn crossing(&self, (switch, beyond): &(Expression, bool), from: &[f64], to: &[f64]) -> Option<[f64; 2]> {
+        let on = |values: &[f64]| if *beyond { switch.at(values) > 0.0 } else { switch.at(values) >= 0.0 };
         let was = on(from);
         if was == on(to) {
             return None;
@@ -162,7 +162,7 @@ impl System {
     }
 
     /// What a law or the change of a state jumps by.
-    fn switches(&self) -> Vec<Expression> {
+    fn switches(&self) -> Vec<(Expression, bool)> {
         let of = |state: &State| match state {
             State::Rate { rate, .. } => rate.switches(),
             State::Play { of, .. } | State::Highest(of) | State::Lowest(of) => of.switches(),
@@ -171,7 +171,7 @@ impl System {
     }
 
     /// Through a span; `run` gets both sides of its jumps.
-    fn cross(&self, span: &Span, switches: &[Expression], values: &mut Vec<f64>, run: &mut Run) {
+    fn cross(&self, span: &Span, switches: &[(Expression, bool)], values: &mut Vec<f64>, run: &mut Run) {
         let [first, last] = span.ends;
         let before = if switches.is_empty() { Vec::new() } else { values.clone() };
         self.go(values, span, [first, last]);
@@ -192,7 +192,7 @@ impl System {
                 run.push(self, span.at(until), values);
             }
             run.jumps.push(run.time.len() - 1);
-            self.place(values, span.inputs(from));
+            self.go(values, span, [until, from]);
             if from < 1.0 {
                 run.push(self, span.at(from), values);
             }
@@ -388,6 +388,40 @@ mod tests {
         // two jumps within a row: a pulse
         let pulse = system(vec![], "step(u - p) - step(u - q)").through(&time, &[65.0, 72.0], std::slice::from_ref(&time));
         assert_eq!((pulse.jumps.len(), pulse.time.len()), (2, 9));
+        // what a state follows has jumped on the far side of the jump
+        for follows in [State::Highest(of("step(u - q)")), State::Play { of: of("step(u - q)"), width: of("0 * p") }] {
+            let run = system(vec![follows], "x").through(&time, &[3.0, 45.0], std::slice::from_ref(&time));
+            let [jump] = run.jumps[..] else { panic!("{run:?}") };
+            assert_eq!([run.laws[0][jump], run.laws[0][jump + 1]], [0.0, 1.0]);
+        }
+    }
+
+    /// From rest to a rise, and to a fall: a sign jumps by as much at the same instant, and through 0 in one.
+    #[test]
+    fn a_sign_jumps_alike_either_way() {
+        let time = even(30.0, 5);
+        let system = System { parameters: 2, inputs: 1, states: Vec::new(), laws: vec![of("sign(u)")] };
+        for way in [1.0, -1.0] {
+            let to = |from: f64, to: f64| {
+                let u: Vec<f64> = time.iter().map(|t| way * if *t < 60.0 { from } else { to }).collect();
+                let run = system.through(&time, &[0.0, 0.0], &[u]);
+                let jump = *run.jumps.first().expect("a jump");
+                (
+                    run.time[jump],
+                    run.time[run.jumps[run.jumps.len() - 1] + 1],
+                    run.laws[0].iter().map(|sign| way * sign).collect::<Vec<_>>(),
+                )
+            };
+            let (before, after, rises) = to(0.0, 1.0);
+            assert!(before >= 30.0 && after < 30.0 + 1e-6, "{before} {after}");
+            assert_eq!(rises.iter().filter(|sign| **sign == 0.0).count(), 2, "{rises:?}");
+            // halfway, at 0 itself for an instant at most
+            let (before, after, turns) = to(-1.0, 1.0);
+            assert!(
+                before > 45.0 - 1e-6 && after < 45.0 + 1e-6 && turns.iter().filter(|sign| **sign == 0.0).count() <= 1,
+                "{turns:?}"
+            );
+        }
     }
 
     #[test]

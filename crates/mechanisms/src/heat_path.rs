@@ -14,6 +14,8 @@ pub struct HeatPath {
     /// Coordinate of the parameter's value, where the path leaves the constants of the design as they are: where it leads, the model is made about it.
     /// `None` of a path that moves constants.
     pub coordinate: Option<fn(f64) -> f64>,
+    /// Value of the parameter at which the coordinate is 0: where the path leads nowhere.
+    pub nowhere: f64,
     /// Change of the coordinate by which a mismatch is sought in the heat flow; `None` where it is sought elsewhere.
     pub nudge: Option<f64>,
     /// The constant of the design on which the mechanism's only parameter is a factor, the coordinate its logarithm; `None` of any other path.

@@ -647,6 +647,14 @@ fn a_drawn_mount_follows_the_chain() {
         assert_eq!(changed.heat.mounts, [coil::Mount { conductance: 20.0 * factor, ..design.heat.mounts[0] }]);
         agree(&format!("mount {factor}"), &responses, &anew(&changed), &nominal, &[RATE, SPOOL]);
     }
+    // beside a model made about the mount as it is, another hypothesis has it as drawn
+    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let active = Active { mechanism: gyro.find("mount-conductance").expect("offered"), values: vec![6.0], choice: None };
+    let about = gyro.about(&middle, std::slice::from_ref(&active)).expect("a model").expect("another place");
+    let of = |model: &Gyro, active: &[Active]| model.respond(0, &middle, active).expect("response").swap_remove(RATE);
+    let [drawn, without, with] = [of(&gyro, &[]), of(&about, &[]), of(&gyro, &[active])];
+    let [off, effect] = [&without, &with].map(|other| rms(&minus(other, &drawn)));
+    assert!(off < 1e-3 * effect, "{off:e} of {effect:e}");
 }
 
 /// Temperatures stay where all conductivities and heat capacities change alike: so they do by the model, to first order beside the values that it is made

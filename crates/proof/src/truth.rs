@@ -177,7 +177,7 @@ pub(crate) fn stage(id: &str) -> Option<&'static str> {
         "tail-asymmetry" | "winding-defect" => "winding",
         "adhesive-content" | "glass-transition" | "viscoelastic-relaxation" => "material",
         "debond" => "bond",
-        "interface-resistance" | "air-path" | "axial-heat-path" | "self-heating" => "thermal",
+        "interface-resistance" | "air-path" | "axial-heat-path" | "mount-conductance" | "self-heating" => "thermal",
         "thermo-optic-curvature" => "optics",
         "rate-temperature-coefficient" => "electronics",
         "sensor-lag" | "chamber-lag" => "sensor",

@@ -107,7 +107,7 @@ fn between(time: &[f64], values: &[f64]) -> Option<Vec<f64>> {
     let mut filled = values.to_vec();
     for pair in known.windows(2).filter(|pair| (pair[1] - pair[0]) as f64 <= 2.0 * usual) {
         let ends = [pair[0], pair[1]];
-        (ends[0]..ends[1]).for_each(|n| filled[n] = on_line(time, values, ends, n));
+        (ends[0] + 1..ends[1]).for_each(|n| filled[n] = on_line(time, values, ends, n));
     }
     Some(filled)
 }

@@ -80,6 +80,7 @@ fn diagnose_beside(
     progress(Step::begins(SINGLES));
     let (leader, fits) = pool.singles(&nominal)?;
     let nominal = pool.without_mechanisms(nominal, &leader)?;
+    let fits = pool.in_likelier_noise(&leader, fits)?;
     progress(Step::begins(LIKELIEST));
     let likeliest = pool.likeliest(fits)?;
     progress(Step::begins(PAIRS));
@@ -112,8 +113,12 @@ impl Pool<'_> {
             return Ok(nominal);
         }
         let again = self.fitter.fit_with_noise(&Hypothesis::RECALIBRATED, &under_leader(&nominal), 2)?;
+        // constants that follow what is left over keep its noise small: beside the drawing's own it may be the likelier, and constants near those are at
+        // least as good in it
+        let near = self.fitter.fit_with_noise(&Hypothesis::RECALIBRATED, &nominal, 2)?;
         let known = self.candidates.iter().position(Candidate::is_constants_alone);
-        let recalibrated = Fit::better(known.map(|at| self.candidates.remove(at).fit), again);
+        let known = known.map(|at| self.candidates.remove(at).fit);
+        let recalibrated = Fit::better(Some(Fit::better(known, again)), near);
         self.push(recalibrated, None);
         Ok(nominal)
     }

@@ -34,6 +34,7 @@ pub(super) const ADHESIVE_CONTENT: Named = Named {
         nodes: nodes(-0.6, 0.6, 5),
         design: |design, _, x| with_polymer(design, x * glass(design).unwrap_or(0.0)),
         coordinate: None,
+        nowhere: 0.0,
         nudge: None,
         factor_on: None,
     }),

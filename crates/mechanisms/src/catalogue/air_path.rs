@@ -24,6 +24,7 @@ pub(super) const AIR_PATH: Named = Named {
         nodes: nodes(-FARTHEST, FARTHEST, 17),
         design: |design, _, x| with_air(design, x.exp()),
         coordinate: None,
+        nowhere: 1.0,
         nudge: Some(coordinate(1.02)),
         factor_on: Some(Parameter::MediumConductivity),
     }),

@@ -25,6 +25,7 @@ pub(super) const AXIAL_HEAT_PATH: Named = Named {
         nodes: nodes(0.0, 0.99, 16),
         design: |design, place, x| with_mount(design, place, CONDUCTANCE * x / (1.0 - x)),
         coordinate: Some(coordinate),
+        nowhere: 0.0,
         nudge: Some(coordinate(0.1)),
         factor_on: None,
     }),

@@ -24,6 +24,7 @@ pub(super) const INTERFACE_RESISTANCE: Named = Named {
         nodes: nodes(0.0, 0.9, 11),
         design: |design, _, x| with_hub_resistance(design, RESISTANCE * x / (1.0 - x)),
         coordinate: Some(coordinate),
+        nowhere: 0.0,
         nudge: Some(coordinate(2e-4)),
         factor_on: None,
     }),

@@ -25,6 +25,7 @@ pub(super) const MOUNT_CONDUCTANCE: Named = Named {
         nodes: nodes(-FARTHEST, FARTHEST, 17),
         design: |design, place, x| with_factor(design, place, x.exp()),
         coordinate: Some(coordinate),
+        nowhere: 1.0,
         nudge: Some(coordinate(1.1)),
         factor_on: None,
     }),
@@ -32,9 +33,9 @@ pub(super) const MOUNT_CONDUCTANCE: Named = Named {
     extent: Extent::everywhere,
     caveat: |_| None,
     offer: |design, _| {
-        let (prior, sides) = (Prior::LogNormal { median: 1.0, spread: SPREAD }, mounted(design));
-        let offer = || Offer { choice: choice_of(&sides), ..Offer::one("mount_factor", prior, &[0.3, 1.0, 3.0]) };
-        (!sides.is_empty()).then(offer)
+        let prior = Prior::LogNormal { median: 1.0, spread: SPREAD };
+        let offer = || Offer { choice: choice(design), ..Offer::one("mount_factor", prior, &[0.3, 1.0, 3.0]) };
+        (!mounted(design).is_empty()).then(offer)
     },
     effect: |chain, record, active| Ok(Effect::Coil(chain.along(record, ID, chosen(active), coordinate(active.values[0])))),
     extended: |design, active| Some(with_factor(design, chosen(active), active.values[0])),
@@ -45,12 +46,20 @@ const SPREAD: f64 = 0.9;
 /// Largest |ln of the factor| that is modelled, three spreads.
 const FARTHEST: f64 = 3.0 * SPREAD;
 
-/// Sides whose flanges have a mount; of a hub without flanges its own.
+/// Sides that have a mount, those of flanges in the design's order.
 fn mounted(design: &Design) -> Vec<Side> {
     let has_mount = |side: &Side| design.heat.mounts.iter().any(|mount| mount.side == *side);
-    let flanges = flanges(design);
-    let sides = if flanges.is_empty() { vec![Side::Left, Side::Right] } else { flanges };
-    sides.into_iter().filter(has_mount).collect()
+    let of_flanges: Vec<Side> = flanges(design).into_iter().filter(has_mount).collect();
+    let all: Vec<Side> = [Side::Left, Side::Right].into_iter().filter(has_mount).collect();
+    if all.len() == of_flanges.len() { of_flanges } else { all }
+}
+
+/// The choice among mounts: of flanges, or from the left where an end without a flange is mounted.
+fn choice(design: &Design) -> Option<(String, Vec<f64>)> {
+    let sides = mounted(design);
+    let (name, values) = choice_of(&sides)?;
+    let bare = sides.iter().any(|side| !flanges(design).contains(side));
+    Some((if bare { "mount_from_left".to_owned() } else { name }, values))
 }
 
 /// Coordinate in which the response is smooth.

@@ -241,13 +241,14 @@ impl<'m> Gyro<'m> {
         facts.stage == Stage::Thermal && facts.heat_path.is_some()
     }
 
-    /// The paths of heat that the models have at work and a hypothesis has not, at no strength.
+    /// The paths of heat that the models have at work and a hypothesis has not, as they are drawn.
     fn taken_away(&self, active: &[Active]) -> Vec<Active> {
         let of = |own: &AtWork| {
             let mechanism = self.find(&own.id)?;
             let kept = active.iter().any(|a| a.mechanism == mechanism && chosen(a) == own.place);
             let choice = self.mechanisms[mechanism].choice.as_ref().map(|(_, candidates)| candidates[own.place]);
-            (!kept).then(|| Active { mechanism, values: vec![0.0], choice })
+            let nowhere = self.kinds[mechanism].facts().heat_path?.nowhere;
+            (!kept).then(|| Active { mechanism, values: vec![nowhere], choice })
         };
         self.library().at_work.iter().filter_map(of).collect()
     }

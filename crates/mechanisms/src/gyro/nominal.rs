@@ -9,8 +9,9 @@ use crate::record_to_bias::Prepared;
 use crate::series::lagged;
 use std::sync::Arc;
 
-/// Share of a constant's tolerance by which it may go before it follows its path of heat: over it the path bends by little more than a percent.
-const LINEAR: f64 = 0.25;
+/// Share of a constant's tolerance by which it may go before it follows its path of heat, and the share of itself if that is less: over it the path bends by
+/// little more than a percent.
+const LINEAR: [f64; 2] = [0.25, 0.025];
 /// Constants that are moved from where others are known.
 const FEW: usize = 2;
 
@@ -39,10 +40,11 @@ impl Gyro<'_> {
         if (to - from).abs() <= 1e-9 * constant.tolerance {
             return;
         }
+        let near = (LINEAR[0] * constant.tolerance).min(LINEAR[1] * constant.drawn);
         let own = constant.parameter.of(self.library().unchanged()).unwrap_or(constant.drawn);
         for (value, sign) in [(to, 1.0), (from, -1.0)] {
             let by = value - own;
-            let far = (by / (LINEAR * constant.tolerance)).powi(4);
+            let far = (by / near).powi(4);
             let along = far / (1.0 + far);
             let Change { parts, thermometer, .. } = self.chain.along(record, id, 0, (value / constant.drawn).ln());
             series.change(&Series { sensor: thermometer.unwrap_or_default(), parts }, sign * along);
