@@ -27,6 +27,9 @@ const LEADERS: usize = 5;
 /// ln evidence behind the best beyond which a candidate is not worth its own noise.
 const BEHIND: f64 = 25.0;
 
+/// Gain of ln evidence after which what is compared is fitted once more, in the noise of what gained it.
+const ONCE_MORE: f64 = 3.0;
+
 struct Pool<'a> {
     fitter: Fitter<'a>,
     settings: Settings,
@@ -113,12 +116,13 @@ impl Pool<'_> {
             return Ok(nominal);
         }
         let again = self.fitter.fit_with_noise(&Hypothesis::RECALIBRATED, &under_leader(&nominal), 2)?;
-        // constants that follow what is left over keep its noise small: beside the drawing's own it may be the likelier, and constants near those are at
-        // least as good in it
-        let near = self.fitter.fit_with_noise(&Hypothesis::RECALIBRATED, &nominal, 2)?;
         let known = self.candidates.iter().position(Candidate::is_constants_alone);
-        let known = known.map(|at| self.candidates.remove(at).fit);
-        let recalibrated = Fit::better(Some(Fit::better(known, again)), near);
+        let mut recalibrated = Fit::better(known.map(|at| self.candidates.remove(at).fit), again);
+        // constants that follow what is left over keep its noise small: that beside the drawing's own may be the likelier, for constants near those, too
+        if nominal.log_evidence > recalibrated.log_evidence + ONCE_MORE {
+            let near = self.fitter.fit_with_noise(&Hypothesis::RECALIBRATED, &nominal, 2)?;
+            recalibrated = Fit::better(Some(recalibrated), near);
+        }
         self.push(recalibrated, None);
         Ok(nominal)
     }

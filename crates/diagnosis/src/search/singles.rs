@@ -2,7 +2,7 @@
 
 use progress::Step;
 
-use super::{BEHIND, FOLLOWED, LIKELIEST, Pool, SINGLES, sort};
+use super::{BEHIND, FOLLOWED, LIKELIEST, ONCE_MORE, Pool, SINGLES, sort};
 use crate::Error;
 use crate::fit::{Fit, Hypothesis};
 
@@ -10,8 +10,6 @@ use crate::fit::{Fit, Hypothesis};
 const ROUNDS: usize = 3;
 /// Gain of ln evidence by which another fit takes the lead.
 const LEADS: f64 = 0.5;
-/// Gain of ln evidence of a round after which all are fitted once more, in the noise that the new leader leaves.
-const ONCE_MORE: f64 = 3.0;
 
 impl Pool<'_> {
     /// The leader with its own noise, and all fits under the noise of the leader before it, best first.
