@@ -153,10 +153,10 @@ pub fn diagnose<'m>(
     }
     let is_offered = |mechanism: &dyn Mechanism| drawn.find(mechanism.facts().id).is_some();
     // of two paths of heat at one place, of a part that is drawn and of one that is not, either is enough
-    let path = |m: &&dyn Mechanism| m.facts().heat_path.map(|_| m.facts().place);
-    let taken: BTreeSet<&str> = mechanisms.iter().filter(|m| is_offered(**m)).filter_map(path).collect();
-    let is_taken = |m: &&dyn Mechanism| path(m).is_some_and(|place| taken.contains(place));
-    let has_no_place = |mechanism: &&&dyn Mechanism| !is_offered(**mechanism) && !is_taken(mechanism);
+    let path = |m: &&&'m dyn Mechanism| m.facts().heat_path.is_some();
+    let taken: BTreeSet<&str> = mechanisms.iter().filter(path).filter(|m| is_offered(**m)).map(|m| m.facts().place).collect();
+    let is_taken = |m: &&&'m dyn Mechanism| path(m) && taken.contains(m.facts().place);
+    let has_no_place = |m: &&&'m dyn Mechanism| !is_offered(**m) && !is_taken(m);
     let missing: Vec<String> = mechanisms.iter().filter(has_no_place).map(|mechanism| mechanism.facts().id.to_owned()).collect();
     if !missing.is_empty() {
         let message =
