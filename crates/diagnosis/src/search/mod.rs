@@ -27,9 +27,6 @@ const LEADERS: usize = 5;
 /// ln evidence behind the best beyond which a candidate is not worth its own noise.
 const BEHIND: f64 = 25.0;
 
-/// Gain of ln evidence after which what is compared is fitted once more, in the noise of what gained it.
-const ONCE_MORE: f64 = 3.0;
-
 struct Pool<'a> {
     fitter: Fitter<'a>,
     settings: Settings,
@@ -83,7 +80,6 @@ fn diagnose_beside(
     progress(Step::begins(SINGLES));
     let (leader, fits) = pool.singles(&nominal)?;
     let nominal = pool.without_mechanisms(nominal, &leader)?;
-    let fits = pool.in_likelier_noise(&leader, fits)?;
     progress(Step::begins(LIKELIEST));
     let likeliest = pool.likeliest(fits)?;
     progress(Step::begins(PAIRS));
@@ -117,12 +113,7 @@ impl Pool<'_> {
         }
         let again = self.fitter.fit_with_noise(&Hypothesis::RECALIBRATED, &under_leader(&nominal), 2)?;
         let known = self.candidates.iter().position(Candidate::is_constants_alone);
-        let mut recalibrated = Fit::better(known.map(|at| self.candidates.remove(at).fit), again);
-        // constants that follow what is left over keep its noise small: that beside the drawing's own may be the likelier, for constants near those, too
-        if nominal.log_evidence > recalibrated.log_evidence + ONCE_MORE {
-            let near = self.fitter.fit_with_noise(&Hypothesis::RECALIBRATED, &nominal, 2)?;
-            recalibrated = Fit::better(Some(recalibrated), near);
-        }
+        let recalibrated = Fit::better(known.map(|at| self.candidates.remove(at).fit), again);
         self.push(recalibrated, None);
         Ok(nominal)
     }

@@ -2,7 +2,7 @@
 
 use progress::Step;
 
-use super::{BEHIND, FOLLOWED, LIKELIEST, ONCE_MORE, Pool, SINGLES, sort};
+use super::{BEHIND, FOLLOWED, LIKELIEST, Pool, SINGLES, sort};
 use crate::Error;
 use crate::fit::{Fit, Hypothesis};
 
@@ -10,6 +10,8 @@ use crate::fit::{Fit, Hypothesis};
 const ROUNDS: usize = 3;
 /// Gain of ln evidence by which another fit takes the lead.
 const LEADS: f64 = 0.5;
+/// Gain of ln evidence of a round after which all are fitted once more, in the noise that the new leader leaves.
+const ONCE_MORE: f64 = 3.0;
 
 impl Pool<'_> {
     /// The leader with its own noise, and all fits under the noise of the leader before it, best first.
@@ -35,23 +37,6 @@ impl Pool<'_> {
             }
             before = fits;
         }
-    }
-
-    /// `fits`, or those again in the noise that the design leaves without a mechanism, where that noise is the likelier: each in the one in which it is likelier.
-    pub(super) fn in_likelier_noise(&self, leader: &Fit, fits: Vec<Fit>) -> Result<Vec<Fit>, Error> {
-        let likeliest = self.candidates.iter().map(|c| &c.fit).max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence));
-        let Some(alone) = likeliest.filter(|alone| alone.log_evidence > leader.log_evidence + ONCE_MORE) else { return Ok(fits) };
-        // under this model, which may be another than that which it was found by
-        let alone = self.fitter.fit(&alone.hypothesis, &alone.noise, Some(alone))?;
-        let mut again = self.round(ROUNDS - 1, &alone, &fits)?;
-        for fit in &mut again {
-            if let Some(calm) = fits.iter().find(|calm| calm.hypothesis == fit.hypothesis && calm.log_evidence > fit.log_evidence)
-            {
-                *fit = calm.clone();
-            }
-        }
-        sort(&mut again);
-        Ok(again)
     }
 
     /// Every mechanism, with every choice, and the constants re-estimated, under the leader's noise, from where they were `before`; best first.

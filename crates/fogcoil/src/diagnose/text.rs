@@ -312,6 +312,9 @@ impl Outcome<'_> {
                 "A record that was held out is predicted better by this explanation, but {} times the noise of its rate is left in it: the cause is confirmed, its size is not.",
                 significant(over, 2)
             ),
+            None if self.is_left_over() => {
+                "A record that was held out is predicted better in its rate, but far more than noise is left of its thermometer: that is not explained.".into()
+            }
             None => format!("A record that was held out confirms {it}."),
         }
     }
@@ -406,7 +409,7 @@ impl Outcome<'_> {
                     .into()
             }
             Verdict::Unknown => {
-                let tried = if self.composed.is_none() { "None of the laws that the program composes follows it. " } else { "" };
+                let tried = if self.composed.is_none() { "No law that the program composes explains enough of it to be accepted. " } else { "" };
                 format!(
                     "check signs, columns, units and times (fogcoil check), then repeat the same profile: a difference that does not return belongs to \
                      the test and not to the unit. {tried}Try a mechanism of your own with --mechanism."
