@@ -473,7 +473,9 @@ impl Outcome<'_> {
             format!(": {none:.2} as drawn, {recalibrate:.2} within tolerances")
         };
         let sentence = capital(statement);
-        if self.is_left_over() {
+        if self.is_left_over() && self.warned(Remark::FitLeft).is_some() {
+            "Something is unexplained, and nothing that was weighed is likelier than the design without it: far more than noise is left of the fitted records, and of one that was held out.".into()
+        } else if self.is_left_over() {
             format!("{sentence} for the fitted records, but a record that was held out is left with far more than noise.")
         } else if probability < 0.5 {
             format!(
