@@ -98,7 +98,8 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     let threshold = branches::threshold(range, noise, step);
     let seated = input.seat != input.drive;
     // rounding to a last digit makes noise: of a course with less, even steps are no digit
-    let digit = resolution(input.drive).min(12.0_f64.sqrt() * noise);
+    let least = if input.reading[0] > 0.0 { input.reading[0] } else { noise };
+    let digit = resolution(input.drive).min(12.0_f64.sqrt() * least);
     let free = smoothed(input.time, input.drive, Some(digit))?.values;
     let input = &Input { drive: &free, seat: if seated { input.seat } else { &free }, ..*input };
     let course = Course::new(input.time, input.drive, threshold);
