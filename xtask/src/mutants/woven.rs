@@ -143,6 +143,13 @@ pub(super) fn woven(name: &str) -> Result<Woven, Failure> {
 /// A fault that the compiler tells: file, byte, message.
 type Fault = (String, usize, String);
 
+/// The place in the copy whose macro calls led to this one: a macro's text, such as that of `vec!`, may be another library's.
+fn called<'a>(span: &'a Value, copy: &Path) -> &'a Value {
+    let outer = &span["expansion"]["span"];
+    let ours = span["file_name"].as_str().is_some_and(|file| copy.join(file).starts_with(copy));
+    if ours || outer.is_null() { span } else { called(outer, copy) }
+}
+
 /// The test programs, or the faults.
 fn built(copy: &Path, name: &str) -> Result<(Vec<Program>, Vec<Fault>), Failure> {
     let mut build = cargo();
@@ -161,7 +168,7 @@ fn built(copy: &Path, name: &str) -> Result<(Vec<Program>, Vec<Fault>), Failure>
         if said["reason"] == "compiler-message" && said["message"]["level"] == "error" {
             let spans = said["message"]["spans"].as_array().map(Vec::as_slice).unwrap_or_default();
             let told = said["message"]["rendered"].as_str().unwrap_or_default();
-            for span in spans.iter().filter(|span| span["is_primary"] == true) {
+            for span in spans.iter().filter(|span| span["is_primary"] == true).map(|span| called(span, copy)) {
                 let at = span["byte_start"].as_u64().and_then(|at| usize::try_from(at).ok()).unwrap_or_default();
                 faults.push((span["file_name"].as_str().unwrap_or_default().to_owned(), at, told.to_owned()));
             }
@@ -171,4 +178,24 @@ fn built(copy: &Path, name: &str) -> Result<(Vec<Program>, Vec<Fault>), Failure>
         return Err(Failure(format!("the tests of {name} with its mutants are not built")));
     }
     Ok((programs, faults))
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn a_fault_in_another_library_s_macro_is_where_it_is_called() {
+        let ours = json!({ "file_name": "crates/a/src/lib.rs", "byte_start": 7, "expansion": null });
+        let theirs =
+            json!({ "file_name": "/rustc/0/library/alloc/src/macros.rs", "byte_start": 1, "expansion": { "span": ours } });
+        let inner =
+            json!({ "file_name": "/rustc/0/library/core/src/macros.rs", "byte_start": 2, "expansion": { "span": theirs } });
+        let copy = Path::new("/copy");
+        assert!([&ours, &theirs, &inner].iter().all(|span| called(span, copy) == &ours));
+        let alone = json!({ "file_name": "/rustc/0/library/alloc/src/macros.rs", "byte_start": 1, "expansion": null });
+        assert_eq!(called(&alone, copy), &alone);
+    }
 }
