@@ -65,9 +65,8 @@ fn look_up(id: &Path) -> Result<glossary::Entry, Error> {
                 "give an id, a mechanism's file (*.ron or *.json), or a coil's with --sensitivity S; `fogcoil check` reads recordings";
             return Error::usage(format!("{name}: is no mechanism's file; {text}"));
         }
-        let (near, none) = (near.join(", "), if id.extension().is_some() { "no file, and no id" } else { "no id" });
-        Error::usage(format!(
-            "{name}: is {none} of a mechanism, a warning or a note; nearest: {near}; `fogcoil explain` lists all"
-        ))
+        let near = if near.is_empty() { String::new() } else { format!("; nearest: {}", near.join(", ")) };
+        let none = if id.extension().is_some() { "no file, and no id" } else { "no id" };
+        Error::usage(format!("{name}: is {none} of a mechanism, a warning or a note{near}; `fogcoil explain` lists all"))
     })
 }

@@ -29,22 +29,32 @@ pub enum Entry {
 
 /// Ids offered for one that is not known, at most.
 const OFFERED: usize = 3;
-/// Inverse of the share of characters in which ids other than the nearest may differ.
+/// Inverse of the share of letters in which an id that is meant may differ.
 const ALIKE: usize = 3;
+/// The same of a word of an explanation: there are many of them.
+const ALIKE_WORD: usize = 6;
 
 /// Meaning of an id.
 ///
 /// # Errors
-/// The nearest ids, best first, where none is this one.
+/// The ids that may be meant, best first, where none is this one: those that are much like it, and those whose explanation has the word.
 pub fn look_up(id: &str) -> Result<Entry, Vec<&'static str>> {
     let all: Vec<Entry> = entries().collect();
     if let Some(entry) = all.iter().find(|entry| entry.id() == id) {
         return Ok(*entry);
     }
-    let mut near: Vec<(usize, &str)> = all.iter().map(|entry| (levenshtein(id, entry.id()), entry.id())).collect();
-    near.sort_unstable();
-    let alike = |(rank, (distance, known)): &(usize, (usize, &str))| *rank == 0 || *distance <= known.len() / ALIKE;
-    Err(near.into_iter().enumerate().take(OFFERED).filter(alike).map(|(_, (_, id))| id).collect())
+    let asked = id.to_lowercase();
+    let far = |known: &str, share: usize| Some(levenshtein(&asked, known)).filter(|far| *far <= known.chars().count() / share);
+    let rank = |entry: &Entry| {
+        let by_word = || {
+            let text = entry.text().to_lowercase();
+            text.split(|c: char| !c.is_alphanumeric()).filter_map(|word| far(word, ALIKE_WORD).filter(|_| !word.is_empty())).min()
+        };
+        far(entry.id(), ALIKE).map(|far| (false, far)).or_else(|| by_word().map(|far| (true, far)))
+    };
+    let mut near: Vec<_> = all.iter().filter_map(|entry| Some((rank(entry)?, entry.id()))).collect();
+    near.sort_by_key(|(rank, _)| *rank);
+    Err(near.into_iter().take(OFFERED).map(|(_, id)| id).collect())
 }
 
 fn entries() -> impl Iterator<Item = Entry> {
@@ -153,5 +163,10 @@ mod tests {
     #[test]
     fn a_slip_of_the_pen_is_near_what_was_meant() {
         assert_eq!(look_up("debnd").unwrap_err()[0], "debond");
+        // a word of the explanation, and that with a slip
+        for word in ["Humidity", "humidty"] {
+            assert!(look_up(word).unwrap_err().contains(&"moisture"), "{word}");
+        }
+        assert!(look_up("qwertzuiop").unwrap_err().is_empty());
     }
 }

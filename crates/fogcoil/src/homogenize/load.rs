@@ -15,6 +15,9 @@ const MOST_KELVIN: f64 = 1000.0;
 pub fn parse_load(text: &str) -> Result<Load, String> {
     let mut load = Load::default();
     let mut given = [false; 7];
+    if text.contains(';') {
+        return Err("separate the parts by commas: exx=1e-4,dt=10".into());
+    }
     for part in text.split(',') {
         let (key, value) = part.split_once('=').ok_or_else(|| format!("`{part}` is not like exx=1e-4"))?;
         let at = KEYS.iter().position(|k| *k == key.trim());
@@ -53,6 +56,7 @@ mod tests {
             ("exx=1", "-0.5"),
             ("exx=nan", "-0.5"),
             ("", "not like"),
+            ("exx=1e-4;dt=10", "by commas"),
         ] {
             assert!(parse_load(text).unwrap_err().contains(complaint), "{text}");
         }
