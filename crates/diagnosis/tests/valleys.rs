@@ -44,6 +44,25 @@ fn a_minimum_that_is_hardly_better_is_not_gone_to() {
     assert!(fit.active[0].values.iter().all(|p| p.abs() < 0.01), "{:?}", fit.active);
 }
 
+/// The valley bends so that one step along it from afar leads elsewhere: as the instants of a switch do where all readings come later.
+#[test]
+fn a_better_minimum_is_found_along_a_bent_valley_of_a_nuisance() {
+    let bent = |around: &[f64]| {
+        let valleys = |p: &[f64]| {
+            let (place, beside) = (p[0], p[1]);
+            let (middle, ground) = if beside < 1.0 { (0.0, GROUND) } else { (2.0, GROUND - 7.0) };
+            let off = 100.0 * (place.powi(3) + place - 5.0 * beside.powi(2));
+            [off, 2.0 * (beside - middle), (2.0_f64 * ground).sqrt(), 0.0, 0.0, 0.0, 0.0, 0.0]
+        };
+        Valleys::new(&[&[0.0]], &[0.01], valleys).beside(3.0, around).fitted()
+    };
+    let path: Vec<f64> = (1..=15).map(|n| 0.2 * f64::from(n)).collect();
+    let [stays, at_once, goes] = [&[][..], &[2.0], &path].map(|around| bent(around).active[0].values[0]);
+    assert!(stays.abs() < 0.01 && at_once.abs() < 0.01, "{stays} {at_once}");
+    // x³ + x = 5 · 1.95², the prior drawing the nuisance back by a fortieth
+    assert!((goes - 2.55).abs() < 0.05, "{goes}");
+}
+
 /// Valleys about 0 and 2, of so many standard deviations' distance and with these grounds.
 fn apart(distance: f64, grounds: [f64; 2]) -> Valleys {
     Valleys::new(&[&[0.0], &[2.0]], &[], move |p| {

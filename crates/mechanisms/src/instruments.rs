@@ -156,6 +156,9 @@ const RATE_DELAY_S: f64 = 5.0;
 /// Its standard deviation with as much that nobody said.
 const LATE_S: f64 = std::f64::consts::SQRT_2 * RATE_DELAY_S;
 
+/// Number of the distances from a fitted delay at which a better one is sought, and the first of them in standard deviations of what it may be.
+const LATE_AROUND: (u32, f64) = (15, 0.1);
+
 /// Numbers of the instruments: name, and the column that it is of with what it is there.
 const READINGS: [(&str, &str); 6] = [
     ("gain of the chamber's thermometer", "chamber_c.gain"),
@@ -195,7 +198,14 @@ pub(crate) fn nuisances(design: &Design, tolerances: &Tolerances, instruments: &
     // a mean over the row that begins at its instant is a row early, a momentary value half a row, which no averaging has smoothed
     let unsaid = instruments.unsaid;
     all.push(sensor(4, 0.0, FILTER_SQUARED_S2.hypot(unsaid * unsaid / 12.0)));
-    all.push(sensor(5, 0.0, instruments.rate_delay_sd()));
+    let late_sd = instruments.rate_delay_sd();
+    let mut late = sensor(5, 0.0, late_sd);
+    // beside a switch within a row a delay of some seconds may look like another instant of the switch
+    if late_sd > LATE_S {
+        let around: Vec<f64> = (1..=LATE_AROUND.0).map(|n| f64::from(n) * LATE_AROUND.1 * late_sd).collect();
+        late.parameter = late.parameter.with_search(&around);
+    }
+    all.push(late);
     all.extend(constants(design, tolerances).iter().map(|constant| constant.nuisance()));
     all
 }

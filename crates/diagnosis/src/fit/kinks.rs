@@ -1,5 +1,6 @@
 //! A second look around a fit whose responses have kinks, which make local minima.
 
+use super::derivatives::Derivatives;
 use super::fitter::{Fit, Fitter};
 use super::objective::{Objective, Point};
 use crate::Error;
@@ -9,9 +10,12 @@ use nalgebra::{Cholesky, DVector};
 const SEARCHES: usize = 6;
 /// Least gain of ln p that is worth a round.
 const WORTH: f64 = 0.3;
+/// Linear steps by which the others follow a nuisance that is set aside.
+const FOLLOWED: usize = 2;
 
 impl Fitter<'_> {
-    /// Looks for a better minimum around a fit: each parameter that asks for it ([`crate::Parameter::around`]) is set aside by its distances.
+    /// Looks for a better minimum around a fit: each parameter that asks for it ([`crate::Parameter::around`]) is set aside by its distances; of nuisances
+    /// beside a mechanism's that asks.
     pub(super) fn searched(&self, mut best: Fit) -> Result<Fit, Error> {
         for _ in 0..SEARCHES {
             let (hypothesis, noise) = (best.hypothesis.clone(), best.noise.clone());
@@ -32,30 +36,40 @@ impl Objective<'_> {
     /// Whether a fit may end in several places: a mechanism has several parameters, or one that asks for a second look.
     pub(super) fn may_have_many_minima(&self) -> bool {
         let several = |(mechanism, _): &(usize, Option<f64>)| self.fitter.model.mechanisms()[*mechanism].parameters.len() > 1;
-        self.kinked().next().is_some() || self.hypothesis.mechanisms.iter().any(several)
+        self.kinked().any(|i| self.layout[i].is_mechanism()) || self.hypothesis.mechanisms.iter().any(several)
     }
 
+    /// Unknowns that ask for a second look.
     fn kinked(&self) -> impl Iterator<Item = usize> {
-        let asks =
-            |i: &usize| self.layout[*i].is_mechanism() && self.parameter(self.layout[*i]).is_some_and(|p| !p.around.is_empty());
+        let asks = |i: &usize| self.parameter(self.layout[*i]).is_some_and(|p| !p.around.is_empty());
         (0..self.layout.len()).filter(asks)
     }
 
     /// The least of the points around a fit; `None` if no parameter asks for any.
     fn beside(&self, best: &Fit) -> Result<Option<Point>, Error> {
-        let searched: Vec<usize> = self.kinked().collect();
-        // one alone, or one against another: the sum of two may be what the records know
+        let (searched, nuisances): (Vec<usize>, Vec<usize>) = self.kinked().partition(|i| self.layout[*i].is_mechanism());
+        if searched.is_empty() {
+            return Ok(None);
+        }
+        let mut found: Option<Point> = None;
+        for i in nuisances {
+            for point in self.along(best, i)? {
+                if found.as_ref().is_none_or(|least| point.value < least.value) {
+                    found = Some(point);
+                }
+            }
+        }
+        // one alone, or one of a mechanism's against another: the sum of two may be what the records know
         let moves = searched
             .iter()
             .flat_map(|i| std::iter::once((*i, None)).chain(searched.iter().filter(move |j| *j != i).map(|j| (*i, Some(*j)))));
-        let mut found: Option<Point> = None;
         for (i, other) in moves {
             let distances = self.parameter(self.layout[i]).map_or(&[][..], |p| &p.around);
             for by in distances.iter().flat_map(|d| [-d, *d]) {
                 let mut u = best.u.clone();
                 self.shift(&mut u, i, by);
                 other.iter().for_each(|j| self.shift(&mut u, *j, -by));
-                if let Some(point) = self.followed(best, u, (i, other))?
+                if let Some(point) = self.followed(&mut best.derivatives.clone(), u, (i, other))?
                     && found.as_ref().is_none_or(|least| point.value < least.value)
                 {
                     found = Some(point);
@@ -72,14 +86,38 @@ impl Objective<'_> {
         }
     }
 
-    /// The point to which the other unknowns follow by one linear step when those of `moved` are held.
-    fn followed(&self, best: &Fit, u: DVector<f64>, (i, other): (usize, Option<usize>)) -> Result<Option<Point>, Error> {
+    /// Points along a valley: a nuisance is set aside by one distance after another, to either side, and the others follow step by step. Instants of a switch
+    /// follow a delay, row by row, where one step from afar would lose them.
+    fn along(&self, best: &Fit, i: usize) -> Result<Vec<Point>, Error> {
+        let distances = self.parameter(self.layout[i]).map_or(&[][..], |p| &p.around);
+        let mut points = Vec::new();
+        for sign in [-1.0, 1.0] {
+            let (mut u, mut derivatives, mut gone) = (best.u.clone(), best.derivatives.clone(), 0.0);
+            for distance in distances {
+                self.shift(&mut u, i, sign * (distance - gone));
+                gone = *distance;
+                for _ in 0..FOLLOWED {
+                    let Some(point) = self.followed(&mut derivatives, u.clone(), (i, None))? else { return Ok(points) };
+                    u.clone_from(&point.u);
+                    points.push(point);
+                }
+            }
+        }
+        Ok(points)
+    }
+
+    /// The point to which the other unknowns follow by one linear step when those of `moved` are held; the derivatives of what has kinks are found anew.
+    fn followed(
+        &self,
+        derivatives: &mut Derivatives,
+        u: DVector<f64>,
+        (i, other): (usize, Option<usize>),
+    ) -> Result<Option<Point>, Error> {
         let held = || std::iter::once(i).chain(other);
         let at = self.point(u)?;
-        let mut derivatives = best.derivatives.clone();
-        self.renew(&at, &mut derivatives)?;
-        let gradient = self.gradient(&at, &derivatives);
-        let mut products = derivatives.products;
+        self.renew(&at, derivatives)?;
+        let gradient = self.gradient(&at, derivatives);
+        let mut products = derivatives.products.clone();
         for k in held() {
             products.row_mut(k).fill(0.0);
             products.column_mut(k).fill(0.0);

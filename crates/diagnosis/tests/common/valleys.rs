@@ -2,7 +2,8 @@
 //! mechanism adds, but for a prior that hardly matters.
 
 use diagnosis::{
-    Active, Channel, Fit, ForwardModel, Hypothesis, NoisePrior, Nuisance, Observation, Omission, Parameter, Prior, State, fitted,
+    Active, Channel, Fit, ForwardModel, Hypothesis, NoisePrior, Nuisance, Observation, Omission, Parameter, Prior, Role, State,
+    fitted,
 };
 use std::cell::RefCell;
 
@@ -14,11 +15,12 @@ const TINY: f64 = 1e-9;
 /// Standard deviation of a parameter beforehand.
 const WIDE: f64 = 100.0;
 
-/// What the mechanism adds to the rows, of its parameters.
+/// What the mechanism adds to the rows, of its parameters and nuisances.
 type Added = Box<dyn Fn(&[f64]) -> [f64; ROWS]>;
 
 pub(crate) struct Valleys {
     channels: Vec<Channel>,
+    nuisances: Vec<Nuisance>,
     mechanisms: Vec<Omission>,
     state: State,
     added: Added,
@@ -42,6 +44,7 @@ impl Valleys {
         };
         Self {
             channels: vec![Channel { name: "y".into(), unit: "1".into(), offset: (0.0, TINY), averaging: 0.0, noise }],
+            nuisances: Vec::new(),
             mechanisms: vec![mechanism],
             state: State { level: vec![0.0; ROWS], rate: vec![0.0; ROWS] },
             added: Box::new(added),
@@ -52,6 +55,13 @@ impl Valleys {
     /// The same with an offset that may be anything.
     pub(crate) fn with_any_offset(mut self) -> Self {
         self.channels[0].offset.1 = WIDE;
+        self
+    }
+
+    /// The same beside a nuisance of this standard deviation, on which what is added depends as on one more parameter; it is looked around by distances, too.
+    pub(crate) fn beside(mut self, sd: f64, around: &[f64]) -> Self {
+        let nuisance = Nuisance::normal("beside", 0.0, sd, Role::Sensor);
+        self.nuisances = vec![Nuisance { parameter: nuisance.parameter.with_search(around), ..nuisance }];
         self
     }
 
@@ -71,17 +81,17 @@ impl ForwardModel for Valleys {
     }
 
     fn nuisances(&self) -> &[Nuisance] {
-        &[]
+        &self.nuisances
     }
 
     fn mechanisms(&self) -> &[Omission] {
         &self.mechanisms
     }
 
-    fn respond(&self, _: usize, _: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
+    fn respond(&self, _: usize, u: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, diagnosis::Failure> {
         let [Active { values, .. }] = active else { return Ok(vec![vec![0.0; ROWS]]) };
         self.asked.borrow_mut().push(values[0]);
-        Ok(vec![(self.added)(values).to_vec()])
+        Ok(vec![(self.added)(&[values, u].concat()).to_vec()])
     }
 
     fn state(&self, _: usize) -> &State {
