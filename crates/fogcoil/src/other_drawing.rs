@@ -21,8 +21,15 @@ const MATERIALS: [(&str, [f64; 6]); 5] = [
     ("Invar", [141.0, 0.29, 1.3, 10.5, 8050.0, 515.0]),
     ("quasi-isotropic CFRP", [60.0, 0.30, 2.0, 5.0, 1600.0, 900.0]),
 ];
-/// A steel that is taken for an austenitic one in a store, with three fifths of its expansion: a data sheet's values at room temperature.
-const FERRITIC: (&str, [f64; 6]) = ("steel 430", [200.0, 0.28, 10.4, 26.0, 7740.0, 460.0]);
+/// Further alloys that a store or a workshop may take instead, each another in expansion or stiffness by more than [`ALIKE`] from all the others: values
+/// at room temperature as data sheets give them.
+const INSTEAD: [(&str, [f64; 6]); 5] = [
+    ("steel 430", [200.0, 0.28, 10.4, 26.0, 7740.0, 460.0]),
+    ("Al 4032", [78.6, 0.33, 19.4, 155.0, 2680.0, 864.0]),
+    ("brass C360", [97.0, 0.34, 20.5, 115.0, 8500.0, 380.0]),
+    ("copper C101", [117.0, 0.34, 16.9, 390.0, 8940.0, 385.0]),
+    ("magnesium AZ31B", [45.0, 0.35, 26.0, 96.0, 1770.0, 1000.0]),
+];
 /// Relative difference of modulus and expansion up to which a material is the drawing's own: alloys of one kind.
 const ALIKE: f64 = 0.1;
 
@@ -51,7 +58,7 @@ pub(crate) fn other_drawings(design: &Design) -> Vec<OtherDrawing> {
     };
     all.push(changed(format!("winding.cw_climbs: {is}"), &|d| d.winding.cw_climbs = other));
     if let Some(spool) = &design.spool {
-        for (name, values) in MATERIALS.into_iter().chain([FERRITIC]) {
+        for (name, values) in MATERIALS.into_iter().chain(INSTEAD) {
             let material = solid(values);
             let [drawn, other] = [&spool.material.elastic, &material.elastic];
             let alike = |a: f64, b: f64| (a - b).abs() <= ALIKE * b;
@@ -117,7 +124,11 @@ mod tests {
                 "spool.material: that of steel 304",
                 "spool.material: that of Invar",
                 "spool.material: that of quasi-isotropic CFRP",
-                "spool.material: that of steel 430"
+                "spool.material: that of steel 430",
+                "spool.material: that of Al 4032",
+                "spool.material: that of brass C360",
+                "spool.material: that of copper C101",
+                "spool.material: that of magnesium AZ31B"
             ]
         );
         for other in &others {

@@ -30,6 +30,11 @@ impl Constant {
         self.posterior.u
     }
 
+    /// Whether it is a number of the design, not of an instrument.
+    pub(super) fn is_of_design(&self) -> bool {
+        self.kind == "design"
+    }
+
     /// Whether it is an instrument's number of which little was known, and the records tell that it is not the usual one.
     fn is_told(&self) -> bool {
         let Posterior { u, sd, .. } = self.posterior;
@@ -101,7 +106,7 @@ impl Outcome<'_> {
     /// Whether something moved, and none of it is of the design.
     pub(super) fn drawing_stands(&self) -> bool {
         let moved: Vec<Constant> = self.moved().into_iter().filter(|c| c.moved().abs() >= MOVED).collect();
-        !moved.is_empty() && moved.iter().all(|c| c.kind != "design")
+        !moved.is_empty() && moved.iter().all(|c| !c.is_of_design())
     }
 
     /// All constants as JSON, in the words of the terminal.

@@ -20,6 +20,12 @@ const LIKELY: f64 = 0.65;
 /// Standard deviations from which a constant that moved is worth a word beside a mechanism that would do the same.
 const MUCH: f64 = 2.0;
 
+/// That a constant is far off what is known of it, as a part of a sentence.
+fn far(constant: &Constant) -> Option<String> {
+    let (name, moved) = (&constant.posterior.name, constant.moved());
+    (moved.abs() > MUCH).then(|| format!("{name} would be {moved:+.1} standard deviations off what is known of it"))
+}
+
 /// Constants that are told where none moved far, and mechanisms that are not far behind.
 const MOST: usize = 3;
 
@@ -368,7 +374,7 @@ impl Outcome<'_> {
                         "inspect the unit for {names}. {} It does not tell {names} from a law that nobody listed, which only the inspection does.",
                         self.confirmed("the size of the effect")
                     ),
-                    None => format!("inspect the unit. Only {names} {is} left. {}", self.confirmed(it)),
+                    None => format!("inspect the unit. Only {names} {is} left. {}{}", self.confirmed(it), self.second_fault()),
                 }
             }
             Verdict::Explained if !self.holdouts.is_empty() => format!(
@@ -383,10 +389,7 @@ impl Outcome<'_> {
                 let told = |(id, probability, inspection): &(&str, f64, &str)| format!("{id} (probability {probability:.2}): {inspection}");
                 let all = runners.iter().map(told).collect::<Vec<_>>().join("; ");
                 let [are, cheapest] = if runners.len() > 1 { ["Not far behind are", "the inspection that costs least"] } else { ["Not far behind is", "this"] };
-                let far = self.moved().into_iter().find(|c| c.moved().abs() > MUCH);
-                let far = far.map_or(String::new(), |c| {
-                    format!("; {} would be {:+.1} standard deviations off what is known of it", c.posterior.name, c.moved())
-                });
+                let far = self.moved().first().and_then(far).map_or(String::new(), |far| format!("; {far}"));
                 format!(
                     "{are} {all}{far}. To decide, begin with {cheapest}; or give a record under another profile with --fit{}.",
                     self.or_lot()
@@ -417,6 +420,17 @@ impl Outcome<'_> {
             }
             Verdict::None => "no test is needed to explain these records.".into(),
         }
+    }
+
+    /// A sentence on a constant of the design that is far off what is known of it beside the mechanisms of the answer.
+    fn second_fault(&self) -> String {
+        let constant = self.moved().into_iter().find(Constant::is_of_design);
+        constant.as_ref().and_then(far).map_or(String::new(), |far| {
+            format!(
+                " Beside {}, {far}: measure it, too; a second, smaller fault may hide behind it.",
+                self.told_names().join(" and ")
+            )
+        })
     }
 
     /// Of several mechanisms that are left and that no chamber's programme tells apart, one whose law names a column of the records, with the column.
