@@ -342,7 +342,14 @@ impl Outcome<'_> {
             );
         }
         match self.diagnosis.verdict {
-            Verdict::None | Verdict::Recalibrate if self.holdouts.iter().any(|held| self.reads_otherwise(held)) => {
+            Verdict::Unknown if self.warned(Remark::Gap).is_some() => {
+                "repeat the profile without a gap, or give the rows before the gap alone (a file that ends there): the chamber turned within it, no reading \
+                 tells how, and what is left may be of that and not of the unit."
+                    .into()
+            }
+            Verdict::None | Verdict::Recalibrate
+                if self.warned(Remark::Gap).is_none() && self.holdouts.iter().any(|held| self.reads_otherwise(held)) =>
+            {
                 "look at the thermometer of the record that was held out: the rate is as predicted, so it may have come off, or been moved. \
                  Empty its column, or record it again."
                     .into()
