@@ -214,7 +214,8 @@ mod tests {
         assert!(debond.text().contains("In the chamber: the best test above; `fogcoil recommend` finds it"));
         let new = debond.told("");
         assert!(
-            !new.contains("above") && new.contains("In the chamber: the best test is not measured; `fogcoil recommend` finds it"),
+            !new.contains("best test above")
+                && new.contains("In the chamber: the best test is not measured; `fogcoil recommend` finds it"),
             "{new}"
         );
     }
