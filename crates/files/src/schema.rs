@@ -50,6 +50,8 @@ fn keyword_kept(value: &Value, keyword: &str, of: &Value, root: &Value, at: &str
         "const" if of != value => fault(format!("is not {of}")),
         "minimum" if !number(|a, least| a >= least) => fault(format!("is less than {of}")),
         "maximum" if !number(|a, most| a <= most) => fault(format!("is more than {of}")),
+        "exclusiveMinimum" if !number(|a, bound| a > bound) => fault(format!("is not more than {of}")),
+        "exclusiveMaximum" if !number(|a, bound| a < bound) => fault(format!("is not less than {of}")),
         "minItems" if !length(|a, least| a >= least) => fault(format!("has fewer than {of} items")),
         "maxItems" if !length(|a, most| a <= most) => fault(format!("has more than {of} items")),
         "required" => match choices().filter_map(Value::as_str).find(|name| value.is_object() && value.get(name).is_none()) {
@@ -65,7 +67,8 @@ fn keyword_kept(value: &Value, keyword: &str, of: &Value, root: &Value, at: &str
                 Err(format!("{at}: {kept} of {keyword}: {}", faults.join("; ")))
             }
         }
-        "type" | "enum" | "const" | "minimum" | "maximum" | "minItems" | "maxItems" => Ok(()),
+        "type" | "enum" | "const" | "minimum" | "maximum" | "exclusiveMinimum" | "exclusiveMaximum" => Ok(()),
+        "minItems" | "maxItems" => Ok(()),
         "properties" | "additionalProperties" | "items" | "prefixItems" => Ok(()),
         _ if NOTES.contains(&keyword) => Ok(()),
         _ => Err(format!("{at}: the schema's keyword {keyword} is not known")),
@@ -96,6 +99,7 @@ mod tests {
             "type": "object", "required": ["a"], "$defs": { "sides": { "enum": ["left", "right"] } },
             "properties": {
                 "a": { "type": "number", "minimum": 0, "maximum": 2 },
+                "e": { "type": "number", "exclusiveMinimum": -1, "exclusiveMaximum": 0.5 },
                 "b": { "type": "array", "items": { "$ref": "#/$defs/sides" }, "maxItems": 2 },
                 "c": { "anyOf": [{ "type": "null" }, { "type": "integer" }] },
             },
@@ -107,6 +111,8 @@ mod tests {
             (json!({ "a": "1" }), "$.a: \"1\" is no"),
             (json!({ "a": -1 }), "$.a: -1 is less than 0"),
             (json!({ "a": 3 }), "$.a: 3 is more than 2"),
+            (json!({ "a": 1, "e": -1 }), "$.e: -1 is not more than -1"),
+            (json!({ "a": 1, "e": 0.5 }), "$.e: 0.5 is not less than 0.5"),
             (json!({ "a": 1, "b": ["left", "up"] }), "$.b[1]: \"up\" is none of"),
             (json!({ "a": 1, "b": ["left", "left", "left"] }), "more than 2 items"),
             (json!({ "a": 1, "c": 1.5 }), "$.c: 0 of anyOf"),

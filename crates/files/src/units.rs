@@ -246,7 +246,14 @@ mod tests {
             let name = format!("size_{}", suffix(unit));
             assert_eq!((suffix(unit).as_str(), parameter_unit(name.trim_end_matches('_')).as_ref()), (suffix_of, said), "{unit}");
         }
-        for (key, said) in [("coil.material.k_r_w_per_mk", "W/(m K)"), ("coil.specific_heat_j_per_kgk", "J/(kg K)")] {
+        for (key, said) in [
+            ("coil.material.k_r_w_per_mk", "W/(m K)"),
+            ("coil.specific_heat_j_per_kgk", "J/(kg K)"),
+            // `per` divides by one word alone, and the first word from the end that is no unit ends it
+            ("q_deg_s_per_h_per_k_per_k", "deg s/h/K/K"),
+            ("q_deg_per_h_per_k2", "deg/h/K2"),
+            ("size_per_s_turns", "1"),
+        ] {
             assert_eq!(parameter_unit(key), said);
         }
     }

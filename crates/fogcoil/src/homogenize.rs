@@ -19,32 +19,46 @@ pub use load::{parse_load, words};
 pub use quantity::{Quantity, parse_quantity};
 pub use strain::Strains;
 
+/// The shear modulus that only square packing has beside `g_r`.
+const DIAGONAL: &str = "g_r_45";
+
 /// The constants in SI under their own names, `error_estimate`: the relative error of each, and `bounds`.
 pub fn json(case: &CellCase, result: &Homogenized) -> Value {
-    let mut all = object(result.constants.named().into_iter().chain(extras(case, result)));
-    all.insert("error_estimate".into(), object(result.relative_error.named()).into());
+    let diagonal = diagonal(case, result);
+    let with =
+        |named: Vec<(&'static str, f64)>, value: Option<f64>| named.into_iter().chain(value.map(|value| (DIAGONAL, value)));
+    let mut all = object(with(result.constants.named().into(), diagonal.map(|[value, _]| value)).chain(masses(case)));
+    let errors = with(result.relative_error.named().into(), diagonal.map(|[_, error]| error));
+    all.insert("error_estimate".into(), object(errors).into());
     all.insert("bounds".into(), bounds_of(&case.cell).map_or(Value::Null, |found| bounds::json(&found)));
     all.into()
 }
 
-/// Constants that only some cells have: the second shear modulus of square packing, constants that follow from densities.
-fn extras(case: &CellCase, result: &Homogenized) -> impl Iterator<Item = (&'static str, f64)> + use<> {
-    let square = (case.cell.packing == Packing::Square).then(|| result.effective.shear_moduli_across()[1]);
+/// Of square packing the shear modulus at 45° to the rows \[Pa\] and its relative error: the modulus is E/(2 (1 + ν)) of `e_r` and `nu_r`, whose errors may add up.
+fn diagonal(case: &CellCase, result: &Homogenized) -> Option<[f64; 2]> {
+    let error = result.relative_error.e_r + result.error().nu_r / (1.0 + result.constants.nu_r);
+    (case.cell.packing == Packing::Square).then(|| [result.effective.shear_moduli_across()[1], error])
+}
+
+/// Constants that follow from densities.
+fn masses(case: &CellCase) -> impl Iterator<Item = (&'static str, f64)> + use<> {
     // a density out of range was refused when the file was read
     let known = |value: Result<Option<f64>, homogenization::Error>| value.ok().flatten();
-    let heavy = heavy([known(case.cell.density()), known(case.cell.heat_capacity())]);
-    square.map(|value| ("g_r_45", value)).into_iter().chain(heavy)
+    heavy([known(case.cell.density()), known(case.cell.heat_capacity())])
 }
 
 /// The constants as a table with units and numerical errors.
 pub fn text(case: &CellCase, result: &Homogenized) -> String {
     let mut rows = vec![["constant", "value", "numerical error", "unit", "meaning"].map(String::from).to_vec()];
-    for ((key, value), (_, error)) in result.constants.named().into_iter().zip(result.error().named()) {
+    let diagonal = diagonal(case, result);
+    let constants = result.constants.named().into_iter().zip(result.error().named().map(|(_, error)| error));
+    for ((key, value), error) in constants.chain(diagonal.map(|[value, error]| ((DIAGONAL, value), value * error))) {
         let (unit, convert, meaning) = presentation(key);
         let (value, error) = (convert(value), plus_minus(convert(error)));
-        rows.push(vec![key.into(), significant(value, 6), error, unit.into(), meaning.into()]);
+        let along = if diagonal.is_some() && ["e_r", "g_r", "nu_r"].contains(&key) { ", along its rows" } else { "" };
+        rows.push(vec![key.into(), significant(value, 6), error, unit.into(), format!("{meaning}{along}")]);
     }
-    for (key, value) in extras(case, result) {
+    for (key, value) in masses(case) {
         let (unit, _, meaning) = presentation(key);
         rows.push(vec![key.into(), significant(value, 6), String::new(), unit.into(), meaning.into()]);
     }

@@ -39,7 +39,8 @@ fn group(name: &str, schema: &Value) -> String {
     if let Some(fields) = schema["properties"].as_object() {
         text += "| field | what | kind | unit | accepted | if left out |\n|---|---|---|---|---|---|\n";
         let required = |name: &str| schema["required"].as_array().is_some_and(|all| all.iter().any(|one| one == name));
-        for (name, of) in fields {
+        // the page says of all files in JSON that they may have the address of their schema
+        for (name, of) in fields.iter().filter(|(name, _)| *name != "$schema") {
             let what = of["description"].as_str().unwrap_or_default().replace('|', "\\|");
             let unit = of["x-unit"].as_str().unwrap_or_default();
             let absent = match (required(name), of.get("default")) {
@@ -110,7 +111,11 @@ fn kind(of: &Value) -> String {
 
 fn range(of: &Value) -> String {
     let items = || of["prefixItems"].as_array().and_then(|items| items.first()).or(of.get("items"));
+    if let (Some(below), Some(above)) = (of["exclusiveMinimum"].as_f64(), of["exclusiveMaximum"].as_f64()) {
+        return format!("between {below:?} and {above:?}");
+    }
     match (of["minimum"].as_f64(), of["maximum"].as_f64()) {
+        (Some(least), Some(most)) if of["type"] == "integer" => format!("{least} to {most}"),
         (Some(least), Some(most)) => format!("{least:?} to {most:?}"),
         (Some(least), None) if of["type"] != "integer" => format!("from {least:?}"),
         _ => items().map_or_else(String::new, range),
@@ -126,11 +131,16 @@ mod tests {
     fn a_table_is_made_between_its_marks() {
         let schema = json!({ "title": "CoilFile", "description": "A coil.", "required": ["a"], "properties": {
             "a": { "description": "Height.", "type": "number", "x-unit": "mm", "minimum": 0.0, "maximum": 2.0 },
-            "b": { "$ref": "#/$defs/SideFile", "default": "Left" } },
+            "b": { "$ref": "#/$defs/SideFile", "default": "Left" },
+            "c": { "description": "Ratio.", "type": "number", "exclusiveMinimum": -1.0, "exclusiveMaximum": 0.5 },
+            "d": { "description": "Layers.", "type": "integer", "minimum": 1, "maximum": 100 },
+            "$schema": { "description": "Address.", "type": "string" } },
             "$defs": { "SideFile": { "enum": ["Left", "Right"], "description": "A side." } } });
         let page = "before\n<!-- fields of x: made by `y` -->\nold\n<!-- fields end -->\nafter\n";
         let text = renewed(page, &[("x", schema.clone())]);
         assert!(text.contains("| `a` | Height. | number | mm | 0.0 to 2.0 | required |\n"), "{text}");
+        assert!(text.contains("| `c` | Ratio. | number |  | between -1.0 and 0.5 | – |\n"), "{text}");
+        assert!(text.contains("| `d` | Layers. | whole number |  | 1 to 100 | – |\n") && !text.contains("$schema"), "{text}");
         assert!(
             text.contains("| `b` |  | side |  |  | `\"Left\"` |\n")
                 && text.contains("**Side.** A side.\n\nOne of `Left`, `Right`."),

@@ -7,7 +7,7 @@ use homogenization::{FibreCell, Homogenized, Packing, Ring, Role};
 
 use super::InputError;
 use super::cell_file::{CellFile, PackingFile};
-use super::cell_general::{GeneralCase, layouts, outline, pitch};
+use super::cell_general::{GeneralCase, MOST_FIBRES, layouts, outline, pitch};
 use super::cell_material::{Material, material};
 use super::fingerprint::Fingerprint;
 use super::group::Group;
@@ -122,6 +122,9 @@ impl<'a> Fibre<'a> {
         if file.rings.is_empty() || file.rings.len() > MOST_RINGS {
             let problem = format!("{} rings are given, but a fibre has 1 to {MOST_RINGS}", file.rings.len());
             return Err(top.fault("rings", problem, "list the fibre's rings from the inside out"));
+        }
+        for (key, count) in [("columns", *file.columns), ("rows", *file.rows)] {
+            count.map_or(Ok(1), |count| top.count(key, count, MOST_FIBRES))?;
         }
         let (mut outlines, mut phases) = (Vec::new(), Vec::new());
         for (at, ring) in top.each("rings", &file.rings) {

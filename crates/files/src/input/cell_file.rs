@@ -21,6 +21,7 @@ pub(super) struct CellFile {
     #[serde(default)]
     pub(super) pitch_um: Given<FibreUm>,
     /// Concentric rings of the fibre, from the inside out, 1 to 16.
+    #[schemars(length(min = 1, max = 16))]
     pub(super) rings: Vec<RingFile>,
     /// Material of the rest of the cell.
     pub(super) adhesive: MaterialFile,
@@ -29,9 +30,11 @@ pub(super) struct CellFile {
     pub(super) packing: Given<PackingFile>,
     /// Fibres of a cell along x; 1 unless given.
     #[serde(default)]
+    #[schemars(range(min = 1, max = 100))]
     pub(super) columns: Given<usize>,
     /// Fibres of a cell along y; 1 unless given.
     #[serde(default)]
+    #[schemars(range(min = 1, max = 100))]
     pub(super) rows: Given<usize>,
     /// Fibres moved at random from the lattice.
     #[serde(default)]
@@ -41,9 +44,11 @@ pub(super) struct CellFile {
     pub(super) cell_um: Given<[(PlaceUm, PlaceUm); 2]>,
     /// Fibre axes (x, y), with `cell_um`, at most 100.
     #[serde(default)]
+    #[schemars(length(max = 100))]
     pub(super) centres_um: Vec<(PlaceUm, PlaceUm)>,
     /// Pockets without adhesive; none unless given.
     #[serde(default)]
+    #[schemars(length(max = 100))]
     pub(super) voids: Vec<VoidFile>,
 }
 
@@ -66,6 +71,7 @@ pub(super) struct DisplacedFile {
     pub(super) seed: u64,
     /// Number of cells that are solved and averaged; 1 unless given.
     #[serde(default = "one")]
+    #[schemars(range(min = 1, max = 1000))]
     pub(super) realisations: usize,
 }
 
@@ -116,6 +122,7 @@ pub(super) struct MaterialFile {
     pub(super) youngs_modulus_mpa: Given<ModulusMpa>,
     /// Poisson's ratio, greater than -1 and less than 0.5; isotropic.
     #[serde(default)]
+    #[schemars(extend("exclusiveMinimum" = -1.0, "exclusiveMaximum" = 0.5))]
     pub(super) poisson_ratio: Given<f64>,
     /// Linear expansion; isotropic.
     #[serde(default)]
@@ -134,6 +141,7 @@ pub(super) struct MaterialFile {
     pub(super) orthotropic: Given<OrthotropicFile>,
     /// Isotropic constants by rising temperature, linear between the rows, in place of one set.
     #[serde(default)]
+    #[schemars(length(max = 1000))]
     pub(super) table: Vec<RowFile>,
 }
 
@@ -196,6 +204,7 @@ pub(super) struct RowFile {
     /// Young's modulus.
     pub(super) youngs_modulus_mpa: ModulusMpa,
     /// Poisson's ratio, greater than -1 and less than 0.5.
+    #[schemars(extend("exclusiveMinimum" = -1.0, "exclusiveMaximum" = 0.5))]
     pub(super) poisson_ratio: f64,
     /// Linear expansion.
     pub(super) thermal_expansion_per_k: ExpansionPerK,

@@ -15,7 +15,7 @@ use super::quantity::FibreUm;
 use super::syntax::MISSING;
 use crate::{Error, shown_path};
 
-const MOST_FIBRES: usize = 100;
+pub(super) const MOST_FIBRES: usize = 100;
 const MOST_REALISATIONS: usize = 1000;
 
 /// A cell file of any arrangement that has been read and checked.
@@ -125,8 +125,6 @@ pub(super) fn pitch(top: &Group, file: &CellFile) -> Result<FibreUm, InputError>
 fn lattice(top: &Group, file: &CellFile) -> Result<Arrangement, InputError> {
     let pitch = pitch(top, file)?.model();
     let (columns, rows) = (file.columns.unwrap_or(1), file.rows.unwrap_or(1));
-    top.count("columns", columns, MOST_FIBRES)?;
-    top.count("rows", rows, MOST_FIBRES)?;
     if columns * rows > MOST_FIBRES {
         let problem = format!("{columns} columns of {rows} are {} fibres, more than {MOST_FIBRES}", columns * rows);
         return Err(top.fault("rows", problem, "take a smaller cell and more realisations"));

@@ -111,6 +111,7 @@ mirrored! {
             /// Contraction across per extension along the fibre.
             nu_zr: Ratio = nu_zr,
             /// Poisson's ratio across; the stiffness must be positive definite.
+            #[schemars(extend("exclusiveMinimum" = -1.0, "exclusiveMaximum" = 1.0))]
             nu_r: f64 = nu_r,
             /// Expansion along the fibre.
             alpha_z_per_k: ExpansionPerK = alpha_z,

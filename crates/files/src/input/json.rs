@@ -96,7 +96,11 @@ impl<'a> Translation<'a> {
             }
             _ => {
                 let word = self.token();
-                self.out.push_str(if word == "null" { "None" } else { word });
+                self.out += &match word {
+                    "null" => "None".to_owned(),
+                    _ if schema["type"] == "integer" => whole(word).unwrap_or_else(|| word.to_owned()),
+                    _ => word.to_owned(),
+                };
             }
         }
         self.out.push_str(if wraps { ")" } else { "" });
@@ -130,11 +134,35 @@ impl<'a> Translation<'a> {
     fn object(&mut self, schema: &'a Value) {
         let of_all = &schema["additionalProperties"];
         let is_map = of_all.is_object();
+        let is_whole = self.out.trim_start().is_empty();
         self.list(if is_map { ["{", "}"] } else { ["(", ")"] }, |this, _| {
+            if is_whole && this.skips_address() {
+                return;
+            }
             let key = this.key(is_map);
             this.out.push(':');
             this.value(if is_map { of_all } else { &schema["properties"][&key] });
         });
+    }
+
+    /// Leaves `"$schema": "..."` out, which is there for editors, with the comma behind it; false if the next key is another, or no text is its value.
+    fn skips_address(&mut self) -> bool {
+        let (at, length) = (self.at, self.out.len());
+        let skips = self.string() == "$schema" && {
+            self.next();
+            self.at += 1;
+            self.next() == b'"'
+        };
+        if !skips {
+            self.at = at;
+            self.out.truncate(length);
+            return false;
+        }
+        self.token();
+        if self.next() == b',' {
+            self.at += 1;
+        }
+        true
     }
 
     /// A key, in quotes if it `is_text` or cannot be a name, with the colon behind it left out.
@@ -170,6 +198,15 @@ impl<'a> Translation<'a> {
         self.out.push_str(close);
     }
 }
+
+/// A whole number that is written with a point or an exponent, as RON has it.
+fn whole(word: &str) -> Option<String> {
+    let number: f64 = word.parse().ok().filter(|number: &f64| number.fract() == 0.0 && number.abs() < EXACT)?;
+    word.contains(['.', 'e', 'E']).then(|| format!("{number}"))
+}
+
+/// Whole numbers below are numbers of their own.
+const EXACT: f64 = 9e15;
 
 fn is_name(text: &str) -> bool {
     let is_word = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
@@ -236,6 +273,13 @@ mod tests {
             (
                 r#"{"winding": 1, "mechanics": {"Relaxing": {"fraction": 0.2}}, "spool": {}}"#,
                 r#"(winding: 1, mechanics: Relaxing ((fraction: 0.2)), spool: Some(()))"#,
+            ),
+            // the address of the schema is for editors
+            ("{\"$schema\": \"a\",\n \"winding\": {\"layers\": 36.0}}", "( \n winding: (layers: 36))"),
+            (r#"{"winding": {"layers": 3.6e1, "pitch_mm": 1.0}, "$schema": "a"}"#, "(winding: (layers: 36, pitch_mm: 1.0),  )"),
+            (
+                r#"{"winding": {"layers": 36.5, "$schema": "a"}, "$schema": 1}"#,
+                r#"(winding: (layers: 36.5, "$schema": "a"), "$schema": 1)"#,
             ),
             ("[]", "[]"),
             ("\"a\\nb\"", "\"a\\nb\""),

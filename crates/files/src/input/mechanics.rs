@@ -18,7 +18,7 @@ const MOST_ROWS: usize = 100;
 pub(crate) enum MechanicsFile {
     #[default]
     Elastic,
-    TemperatureTable(Vec<FactorsFile>),
+    TemperatureTable(#[schemars(length(min = 1, max = 100))] Vec<FactorsFile>),
     Relaxing(RelaxingFile),
     Opening(OpeningFile),
 }

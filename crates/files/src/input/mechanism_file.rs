@@ -30,14 +30,18 @@ pub(crate) struct MechanismFile {
     #[serde(default, deserialize_with = "super::name::printable")]
     pub(crate) source: String,
     /// Numbers that are fitted, 1 to 8.
+    #[schemars(length(min = 1, max = 8))]
     pub(crate) parameters: Vec<ParameterFile>,
     /// Further columns of the records that states and laws name, up to 8.
     #[serde(default)]
+    #[schemars(length(max = 8))]
     pub(crate) columns: Vec<ColumnFile>,
     /// States, its memory, up to 8.
     #[serde(default)]
+    #[schemars(length(max = 8))]
     pub(crate) states: Vec<StateFile>,
     /// Its changes of the model, 1 to 8.
+    #[schemars(length(min = 1, max = 8))]
     pub(crate) laws: Vec<LawFile>,
 }
 
@@ -61,6 +65,7 @@ pub(crate) struct ParameterFile {
     pub(crate) source: String,
     /// Values from which fits start, up to 50; empty: from the prior.
     #[serde(default)]
+    #[schemars(length(max = 50))]
     pub(crate) starts: Vec<f64>,
     /// Its value, as `simulate` takes it.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -15,6 +15,9 @@ use super::targets_file::TargetsFile;
 const RON: &str = "The file is RON: an object is written (key: value, ...), a list [a, b] or, of fixed length, (a, b), an object with one \
     capitalised key, {\"Name\": x}, is Name(x), a capitalised string is written without quotes, null is None. Numbers are in the unit x-unit.";
 
+/// The one field that RON does not have.
+const ADDRESS: &str = "Address of this schema, for an editor; in JSON alone, ignored by the program.";
+
 /// JSON Schemas of the files that the program reads, by name: `coil`, `cell`, `targets`, `mechanism`, `meta`, `map`.
 pub fn schemas() -> [(&'static str, Value); 6] {
     [
@@ -30,6 +33,9 @@ pub fn schemas() -> [(&'static str, Value); 6] {
 fn of<T: JsonSchema>() -> Value {
     let mut schema = SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<T>();
     schema.insert("$comment".into(), json!(RON));
+    if let Some(fields) = schema.get_mut("properties").and_then(Value::as_object_mut) {
+        fields.insert("$schema".into(), json!({ "description": ADDRESS, "type": "string" }));
+    }
     let mut schema = schema.into();
     ordered(&mut schema);
     schema

@@ -56,12 +56,31 @@ impl Source {
 
     /// The file's content, of a kind if `fogcoil new` writes such files.
     pub(super) fn parse<T: DeserializeOwned>(&self, kind: Option<&Kind>) -> Result<T, InputError> {
-        // an optional value may stand as it is
-        let format = ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
-        format.from_str(&self.text).map_err(|error| match mistaken(&self.text, kind) {
+        read(&self.text).map_err(|error| match mistaken(&self.text, kind) {
             Some((problem, remedy)) => InputError::whole(&self.path, problem, remedy),
-            None => self.syntax_fault(&error),
+            None => self.syntax_fault(&self.in_quotes::<T>(&error).unwrap_or(error)),
         })
+    }
+
+    /// The error of a key or choice in JSON that cannot be a name in RON, and stands there in quotes: what it would be, were it a name.
+    fn in_quotes<T: DeserializeOwned>(&self, error: &SpannedError) -> Option<SpannedError> {
+        let stopped = self.offset(error.span.start.line, error.span.start.col);
+        let rest = self.text[stopped..].trim_start();
+        let before = &self.text[..self.text.len() - rest.len()];
+        if self.json.is_none() || !rest.starts_with('"') {
+            return None;
+        }
+        let mut tokens = Scanner::new(rest);
+        tokens.next()?;
+        let (quoted, behind) = rest.split_at_checked(tokens.position())?;
+        let mut named = read::<T>(&format!("{before}{UNNAMED}{behind}")).err()?;
+        match &mut named.code {
+            ron::Error::NoSuchStructField { found, .. } | ron::Error::NoSuchEnumVariant { found, .. } if found == UNNAMED => {
+                *found = ron::from_str(quoted).ok()?;
+                Some(named)
+            }
+            _ => None,
+        }
     }
 
     fn syntax_fault(&self, error: &SpannedError) -> InputError {
@@ -107,6 +126,14 @@ impl Source {
         let field = if rest.is_empty() { path } else { join(&path, rest) };
         InputError { line: Some(line), field: Some(field), ..InputError::whole(&self.path, problem, remedy) }
     }
+}
+
+/// Stands for what cannot be a name; none of a file's names.
+const UNNAMED: &str = "_";
+
+fn read<T: DeserializeOwned>(text: &str) -> Result<T, SpannedError> {
+    // an optional value may stand as it is
+    ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME).from_str(text)
 }
 
 /// How a tolerance is written.

@@ -44,6 +44,7 @@ mirrored! {
             /// Young's modulus.
             youngs_modulus_gpa: ModulusGpa = youngs_modulus,
             /// Greater than -1 and less than 0.5.
+            #[schemars(extend("exclusiveMinimum" = -1.0, "exclusiveMaximum" = 0.5))]
             poisson_ratio: f64 = poisson_ratio,
             /// Linear expansion.
             thermal_expansion_per_k: ExpansionPerK = thermal_expansion,

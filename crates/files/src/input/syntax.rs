@@ -70,7 +70,8 @@ pub(crate) fn explain(error: &Error, rest: &str) -> (String, String) {
 }
 
 /// Remedies of faults of syntax: for RON, for JSON.
-const REMEDIES: [(&str, &str); 6] = [
+const REMEDIES: [(&str, &str); 7] = [
+    ("write `name: value`, and decimals with a point", "write it in double quotes"),
     ("write it in parentheses, (name: value, ...)", "write it in braces, {\"name\": value, ...}"),
     ("write Normal(mean, standard deviation), e.g. Normal(0.0, 0.01)", "write {\"Normal\": [mean, standard deviation]}"),
     (

@@ -19,6 +19,7 @@ pub(crate) struct TargetsFile {
     /// The measured constants.
     pub(crate) targets: Entries,
     /// Kinds of cell to try.
+    #[schemars(length(min = 1, max = 6))]
     pub(crate) cells: Vec<CellPrior>,
 }
 
@@ -69,7 +70,8 @@ pub(crate) struct CellPrior {
     /// Its name.
     #[serde(deserialize_with = "super::name::printable")]
     pub(crate) name: String,
-    /// Rings from the inside out, 1 to 16.
+    /// Rings from the inside out, 1 to 5.
+    #[schemars(length(min = 1, max = 5))]
     pub(crate) rings: Vec<RingFile>,
     /// Material of the rest.
     pub(crate) adhesive: MaterialFile,

@@ -17,8 +17,10 @@ mirrored! {
         /// The half of each layer.
         pattern: PatternFile = pattern,
         /// Number of layers, 1 to 10000.
+        #[schemars(range(min = 1, max = 10000))]
         layers: usize = layers,
         /// Turns of layers 1, 3, 5, ..., 1 to 100000.
+        #[schemars(range(min = 1, max = 100000))]
         turns_odd_layers: usize = turns_odd_layers,
         /// Turns of layers 2, 4, 6, ...: as many, or one fewer.
         turns_even_layers: usize = turns_even_layers,
@@ -46,6 +48,7 @@ mirrored! {
     /// A layer wound wrongly.
     DefectFile is LayerDefect {
         /// Its number, from 1, outwards.
+        #[schemars(range(min = 1, max = 10000))]
         layer: usize = layer,
         /// Turns too many, or if negative too few, of the half that owns the layer.
         turns: i32 = turns,

@@ -107,13 +107,17 @@ impl Subject {
     }
 
     pub(super) fn text(&self) -> String {
+        self.told(self.measured())
+    }
+
+    /// The text with what was measured, which may be nothing yet.
+    fn told(&self, measured: &str) -> String {
         let mut out = format!("{}: {}\n", self.id, self.title);
         let mut say = |name: &str, text: &str| {
             if !text.is_empty() {
                 let _ = write!(out, "\n{name}\n{}\n", indented(text));
             }
         };
-        let measured = self.measured();
         say("Equation", self.equation);
         say("Place in the chain", self.place);
         say("Request", &request(self.id));
@@ -124,8 +128,11 @@ impl Subject {
             &table(&rows(measured, RIVALS)),
         );
         if let Some(inspection) = inspection(self.id) {
-            let chamber = "In the chamber: the best test above; `fogcoil recommend` finds it for your design.";
-            say("How to test it", &format!("{chamber}\nOn the unit: {inspection}."));
+            let above = if measured.is_empty() { "the best test is not measured" } else { "the best test above" };
+            say(
+                "How to test it",
+                &format!("In the chamber: {above}; `fogcoil recommend` finds it for your design.\nOn the unit: {inspection}."),
+            );
         }
         if let Some(verdict) = super::verdict::find(self.id) {
             say("As a verdict", &format!("{}\n{}\nNext: {}", verdict.meaning, verdict.limits, verdict.next));
@@ -199,6 +206,18 @@ mod tests {
                 assert!(measured.starts_with(&format!("Stage: {stage}.")), "{}", mechanism.id);
             }
         }
+    }
+
+    #[test]
+    fn a_test_that_was_not_measured_is_not_told() {
+        let debond = all().find(|m| m.id == "debond").unwrap();
+        assert!(debond.text().contains("In the chamber: the best test above; `fogcoil recommend` finds it"));
+        let new = debond.told("");
+        assert!(
+            !new.contains("best test above")
+                && new.contains("In the chamber: the best test is not measured; `fogcoil recommend` finds it"),
+            "{new}"
+        );
     }
 
     /// `cargo xtask mechanisms` renews the pages.

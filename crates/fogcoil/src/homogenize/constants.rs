@@ -47,7 +47,7 @@ pub(crate) fn presentation(key: &str) -> (&'static str, fn(f64) -> f64, &'static
         "m_ry" => ("-", same, "mean radial strain of the glass per strain across (y)"),
         "m_rz" => ("-", same, "mean radial strain of the glass per strain along"),
         "m_rt" => ("1e-6/K", to_ppm, "mean radial strain of the glass per kelvin"),
-        "g_r_45" => ("Pa", same, "shear modulus across the fibre at 45 deg to its rows"),
+        "g_r_45" => ("MPa", to_mpa, "shear modulus across the fibre, at 45 deg to its rows"),
         "density_kg_per_m3" => ("kg/m3", same, "density"),
         "heat_capacity_j_per_m3k" => ("J/(m3 K)", same, "heat capacity of a volume, thermoelastic part neglected"),
         "specific_heat_j_per_kgk" => ("J/(kg K)", same, "specific heat, as a coil file takes it"),

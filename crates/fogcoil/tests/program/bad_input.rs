@@ -1,6 +1,7 @@
 //! Every way a case file can be wrong ends in one message, exit status 2, and nothing written.
 
-use crate::common::{CELL, COIL, Folder, change, line_of, stderr};
+use crate::common::{CELL, COIL, Folder, change, line_of, schema, stderr};
+use serde_json::json;
 
 /// Replaced text, its replacement, the field that the message names, and a part of the message.
 type Case = (&'static str, &'static str, &'static str, &'static str);
@@ -268,6 +269,75 @@ fn a_fault_in_json_is_told_in_its_words() {
     );
     folder.write("c.json", "{\n \"name\": tru\n}\n");
     refuse(&folder, &["wind", "c.json"], &["c.json:2: is not JSON: expected ident, at its end"]);
+    // a key that cannot be a name in RON is unknown like any other
+    for key in ["foo-bar", "//", "outer diameter", "1", "\u{e4}"] {
+        folder.write("c.json", format!("{{\n \"name\": \"x\",\n \"{key}\": {{\"a b\": 1}}\n}}\n"));
+        let unknown = format!("c.json:3: unknown field `{key}`; the fields here are name, winding, coil");
+        refuse(&folder, &["wind", "c.json"], &[&unknown]);
+    }
+    for (field, says) in [
+        ("\"heat\": {\"a-b\": 1}", "c.json:2: heat: unknown field `a-b`; the fields here are "),
+        (
+            "\"winding\": {\"pattern\": \"Di pole\"}",
+            "c.json:2: winding.pattern: `Di pole` is not a choice here; choose Cylindrical or ",
+        ),
+        ("\"winding\": {\"pattern\": 3}", "c.json:2: winding.pattern: a name is needed; write it in double quotes"),
+        ("\"a-b\": 3", "c.json:2: unknown field `a-b`"),
+        ("\"$schema\": 3, \"winding\": {}", "c.json:2: unknown field `$schema`"),
+        ("\"winding\": {\"$schema\": \"x\"}", "c.json:2: winding: unknown field `$schema`"),
+    ] {
+        folder.write("c.json", format!("{{\n {field}\n}}\n"));
+        refuse(&folder, &["wind", "c.json"], &[says]);
+    }
+}
+
+/// An editor finds the schema by it.
+#[test]
+fn the_address_of_the_schema_is_ignored_in_json() {
+    let folder = Folder::new();
+    let cell = |first: &str, columns: &str| {
+        let material = "{\"youngs_modulus_mpa\": 70200.0, \"poisson_ratio\": 0.17, \"thermal_expansion_per_k\": 5e-7, \"conductivity_w_per_mk\": 1.38}";
+        let ring = format!("{{\"name\": \"g\", \"outer_diameter_um\": 80.0, \"glass\": true, \"material\": {material}}}");
+        let text = format!(
+            "{{{first}\n\"name\": \"x\", \"pitch_um\": 170, \"columns\": {columns}, \"rings\": [{ring}], \"adhesive\": {material}}}"
+        );
+        let schema = schema("cell");
+        let kept = fogcoil::schema::misfit(&serde_json::from_str(&text).unwrap(), &schema).is_none();
+        folder.write("x.cell.json", text);
+        let output = folder.run(&["homogenize", "x.cell.json", "--json"]);
+        (kept, output.status.success(), stderr(&output))
+    };
+    for first in ["", "\"$schema\": \"./cell.schema.json\","] {
+        let (kept, done, said) = cell(first, "1");
+        assert!(kept && done, "{said}");
+    }
+    // a whole number is one in whatever way it is written, and 0 fibres are none
+    assert!(cell("", "1.0").1);
+    let (kept, done, said) = cell("", "0");
+    assert!(!kept && !done && said.contains("x.cell.json:2: columns: 0 is not a count"), "{said}");
+}
+
+/// A value that the program refuses for itself alone is refused by the schema, too.
+#[test]
+fn what_a_schema_can_bound_it_bounds() {
+    let rings = &CELL[CELL.find("rings: [").unwrap()..CELL.find("    adhesive").unwrap()];
+    for (kind, text, old, new, place, value) in [
+        ("cell", CELL, rings, "rings: [],", "/properties/rings", json!([])),
+        ("cell", CELL, "poisson_ratio: 0.17", "poisson_ratio: 0.5", "/$defs/MaterialFile/properties/poisson_ratio", json!(0.5)),
+        ("cell", CELL, "poisson_ratio: 0.17", "poisson_ratio: -1", "/$defs/MaterialFile/properties/poisson_ratio", json!(-1)),
+        ("cell", CELL, "pitch_um", "rows: 101, pitch_um", "/properties/rows", json!(101)),
+        ("coil", COIL, "layers: 36", "layers: 0", "/$defs/WindingFile/properties/layers", json!(0)),
+        ("coil", COIL, "layers: 36", "layers: 10001", "/$defs/WindingFile/properties/layers", json!(10001)),
+        ("coil", COIL, "layers: 36", "layers: 36.5", "/$defs/WindingFile/properties/layers", json!(36.5)),
+        ("coil", COIL, "poisson_ratio: 0.33", "poisson_ratio: 0.5", "/$defs/SolidFile/properties/poisson_ratio", json!(0.5)),
+    ] {
+        let folder = Folder::new();
+        folder.write("c.ron", change(text, old, new));
+        refuse(&folder, &[if kind == "cell" { "homogenize" } else { "wind" }, "c.ron"], &["c.ron:"]);
+        let schema = schema(kind);
+        let of = schema.pointer(place).unwrap_or_else(|| panic!("{place}"));
+        assert!(fogcoil::schema::misfit(&value, of).is_some(), "{place}: {value}");
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The commands on good files: keys, headers, units, every variant of the file format.
 
-use crate::common::{CELL, COIL, Folder, change, stderr, stdout};
+use crate::common::{CELL, COIL, Folder, change, schema, stderr, stdout};
 use fogcoil::glossary::Remark;
 use fogcoil::input::{Origin, read_cell, read_coil};
 
@@ -49,6 +49,35 @@ fn homogenize_reports_every_constant_with_its_error() {
     assert_eq!(format!("{:.1e}", result["e_z"].as_f64().unwrap()), "1.5e10"); // Pa
     let text = run(&folder, &["homogenize", "cell.ron"]);
     assert!(KEYS.iter().all(|key| text.contains(key)) && text.contains("MPa"), "{text}");
+}
+
+/// Square packing has a constant that others have not.
+#[test]
+fn a_square_cell_keeps_its_schema_and_says_what_lies_along_its_rows() {
+    let folder = Folder::new();
+    folder.write("cell.ron", change(CELL, "pitch_um: 170.0,", "pitch_um: 170.0, packing: Square, columns: 1,"));
+    let result = json(&run(&folder, &["homogenize", "cell.ron", "--json"]));
+    let under = json(&run(&folder, &["homogenize", "cell.ron", "--json", "--load", "exx=1e-4,dt=10"]));
+    for object in [&result, &under] {
+        assert_eq!(fogcoil::schema::misfit(object, &schema("homogenize")), None);
+    }
+    assert!(under["strains"].is_object());
+    let [e, nu, g] = ["e_r", "nu_r", "g_r_45"].map(|key| result[key].as_f64().unwrap());
+    assert!((g / (e / (2.0 * (1.0 + nu))) - 1.0).abs() < 1e-9, "{g}");
+    assert!((0.0..1e-4).contains(&result["error_estimate"]["g_r_45"].as_f64().unwrap()), "{result}");
+    let text = run(&folder, &["homogenize", "cell.ron"]);
+    let row = |key: &str| {
+        text.lines().find(|line| line.split_whitespace().next() == Some(key)).unwrap_or_else(|| panic!("{key}: {text}"))
+    };
+    let words: Vec<&str> = row("g_r_45").split_whitespace().collect();
+    assert!((words[1].parse::<f64>().unwrap() / (g / 1e6) - 1.0).abs() < 1e-5 && words[4] == "MPa", "{words:?}");
+    for key in ["e_r", "g_r", "nu_r"] {
+        assert!(row(key).ends_with(", along its rows"), "{text}");
+    }
+    // hexagonal packing is the same along all directions
+    folder.write("cell.ron", CELL);
+    let text = run(&folder, &["homogenize", "cell.ron"]);
+    assert!(!text.contains("rows") && !text.contains("g_r_45"), "{text}");
 }
 
 #[test]

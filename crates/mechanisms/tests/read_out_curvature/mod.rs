@@ -2,7 +2,9 @@
 
 use coil::{Design, Error};
 use diagnosis::{Active, Prior};
-use mechanisms::{Chain, Effect, Extent, Facts, Mechanism, Naming, Offer, Prepared, REFERENCE_C, Scene, Stage, Steady, middles};
+use mechanisms::{
+    Chain, Effect, Extent, Facts, Mechanism, Naming, Offer, Prepared, REFERENCE_C, Readings, Scene, Stage, Steady, middles,
+};
 
 pub(crate) struct ReadOutCurvature;
 
@@ -35,11 +37,7 @@ impl Mechanism for ReadOutCurvature {
     /// It acts on the readings; one that changes the coil returns [`Effect::Coil`].
     fn effect(&self, _: &Chain, _: &Prepared, active: &Active) -> Result<Effect, Error> {
         let q = active.values[0];
-        Ok(Effect::Readings(Box::new(move |readings| {
-            // a temperature is of the row's instant, a rate is the mean since the row before
-            let bent = middles(&readings.thermometer, |t| q * (t - REFERENCE_C).powi(2));
-            readings.rate.iter_mut().zip(bent).for_each(|(rate, bent)| *rate += bent);
-        })))
+        Ok(Effect::Readings(Box::new(move |readings| act(readings, q))))
     }
 
     /// A coil file has no key for it.
@@ -50,5 +48,25 @@ impl Mechanism for ReadOutCurvature {
     /// It sees what all records have.
     fn columns(&self) -> Vec<&str> {
         Vec::new()
+    }
+}
+
+/// The law.
+fn act(readings: &mut Readings, q: f64) {
+    // a temperature is of the row's instant, a rate is the mean since the row before
+    let bent = middles(&readings.thermometer, |t| q * (t - REFERENCE_C).powi(2));
+    readings.rate.iter_mut().zip(bent).for_each(|(rate, bent)| *rate += bent);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rate_bends_with_the_square_of_the_temperature() {
+        let mut readings = Readings { time: &[0.0, 60.0, 120.0], thermometer: vec![20.0, 30.0, 40.0], rate: vec![1.0; 3] };
+        act(&mut readings, 0.01);
+        // means of 0 and 100 K², of 100 and 400 K²
+        assert_eq!(readings.rate, [1.0, 1.5, 3.5]);
     }
 }
