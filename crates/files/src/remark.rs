@@ -134,8 +134,8 @@ remarks! {
         "Check the power of `heat.heaters` (in W, cooling is negative) and the profile.";
     // recordings as they are read
     DeclaredInterval "declared-interval":
-        "The instants of a recording's rows are counted with the interval that was declared; a column of instants, if there is one, is not read.",
-        "Lost rows and a drifting clock cannot be seen. It is a warning where the column tells of a length that differs by more than half.",
+        "The instants of a recording's rows are counted with the interval that was declared; a column of instants, if there is one, tells gaps alone.",
+        "Without a column of instants lost rows cannot be seen, with one those that its clock shows; a drifting clock cannot. It is a warning where the column tells of a length that differs by more than half.",
         "Record the instants, or leave out the interval (--interval, interval_s in the map file) if the column's instants are right.";
     Footer "footer":
         "Below the last row of a recording stand lines without a number, a date or a time of day: remarks of the logger.",

@@ -2,7 +2,7 @@
 
 use crate::common::{Random, even, simulate};
 use recording::Error;
-use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Series, Term, identify};
+use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Parameter, Series, Term, identify};
 
 const COUNT: usize = 2500;
 
@@ -231,4 +231,83 @@ fn what_cannot_be_identified_is_refused() {
     assert!(matches!(run(&holed, &mask, &[], &bounds), Error::Value { row: 7, .. }));
     let backwards = Bounds { drift_time: [100.0, 10.0], ..bounds.clone() };
     assert!(matches!(run(&noise, &mask, &[], &backwards), Error::Parameter { name: "drift_time", .. }));
+}
+
+/// White noise of 1 with a walk, a row each second.
+fn walking(walk: f64, count: usize, seed: u64) -> Vec<f64> {
+    simulate(&NoiseModel { walk, ..NoiseModel::white(1.0, 1.0) }, count, &mut Random::new(seed))
+}
+
+fn means(values: &[f64], of: usize) -> Vec<f64> {
+    values.chunks_exact(of).map(|rows| rows.iter().sum::<f64>() / of as f64).collect()
+}
+
+/// The least walk that a record tells is its white noise over its length: far below a thousandth of a value's in a long and quick one.
+#[test]
+fn a_faint_walk_is_told_by_the_length_of_the_record() {
+    for (times, least) in [(12.0, 0.4), (40.0, 0.95)] {
+        let (mut coverage, mut made) = (Coverage(vec![]), 0);
+        for (count, seeds) in [(2000, 24), (8000, 12), (20_000, 8), (50_000, 4)] {
+            let truth = times / f64::from(count);
+            for seed in 0..seeds {
+                let values = walking(truth, count as usize, 1000 * times as u64 + seed);
+                let of = |values: &[f64], interval: f64| {
+                    let time = even(values.len(), interval);
+                    let found = estimate(&time, values, &Bounds { terms: vec![Term::Walk], ..Bounds::new(interval, &time) });
+                    assert!(found.at_edge.is_empty() && found.standard_errors.white.is_some(), "{count} {seed}: {found:?}");
+                    assert_eq!(found.terms.contains(&Term::Walk), found.standard_errors.walk.is_some(), "{count} {seed}");
+                    found
+                };
+                let (fine, coarse) = (of(&values, 1.0), of(&means(&values, 20), 20.0));
+                made += 1;
+                coverage.add(fine.model.walk, truth, fine.standard_errors.walk);
+                if let (Some(error), Some(_)) = (fine.standard_errors.walk, coarse.standard_errors.walk) {
+                    let apart = (fine.model.walk / coarse.model.walk).ln().abs() / error;
+                    assert!(apart < 1.0, "{count} {seed}: means of 20 rows differ by {apart} errors");
+                }
+            }
+        }
+        let found = coverage.0.len() as f64 / f64::from(made);
+        println!("{times} over the length: found in {found}, 90 % intervals cover {}", coverage.share());
+        assert!(found >= least, "{times}: {found}");
+        assert!(coverage.share() >= 0.8, "{times}: {}", coverage.share());
+    }
+}
+
+#[test]
+fn of_white_noise_alone_no_slow_term_is_invented() {
+    let (mut invented, mut made) = (0, 0);
+    for (count, seeds) in [(500, 60), (2000, 60), (20_000, 8)] {
+        let time = even(count, 1.0);
+        for seed in 0..seeds {
+            let found = estimate(&time, &walking(0.0, count, 7000 + seed), &Bounds::new(1.0, &time));
+            assert!(found.at_edge.is_empty() && found.standard_errors.white.is_some(), "{count} {seed}: {found:?}");
+            invented += usize::from(!found.terms.is_empty());
+            made += 1;
+        }
+    }
+    println!("invented in {invented} of {made}");
+    assert!(20 * invented <= made, "{invented} of {made}");
+}
+
+/// Of a record without white noise, and of a drift that is longer than the longest sought, the ends of the search are not told as found.
+#[test]
+fn what_stands_at_an_end_of_the_search_is_not_told() {
+    let time = even(2000, 1.0);
+    // means of a walk, given as momentary values: their steps go on, where white noise would turn them back
+    let smooth: Vec<f64> = walking(1.0, 2000, 5).windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
+    let smooth = [&smooth[..1], &smooth[..]].concat();
+    let found = estimate(&time, &smooth, &Bounds { terms: vec![Term::Walk], ..Bounds::new(0.0, &time) });
+    assert_eq!((found.at_edge.as_slice(), found.standard_errors.white), ([Parameter::White].as_slice(), None));
+    assert!(found.standard_errors.walk.expect("known") < 0.02, "{found:?}");
+    let truth = NoiseModel { drift: 0.6, drift_time: 400.0, ..NoiseModel::white(1.0, 1.0) };
+    let values = simulate(&truth, 2000, &mut Random::new(3));
+    let bounds = Bounds { drift_time: [4.0, 100.0], terms: vec![Term::Drift], ..Bounds::new(1.0, &time) };
+    let found = estimate(&time, &values, &bounds);
+    assert_eq!(found.at_edge, [Parameter::Drift, Parameter::DriftTime]);
+    assert_eq!((found.standard_errors.drift, found.standard_errors.drift_time), (None, None));
+    let white = found.standard_errors.white.expect("known");
+    assert!(found.model.white.ln().abs() < 3.0 * white, "{found:?}");
+    // what follows from it within the record is told
+    assert!(found.relative_error(|model| model.allan_deviation(20.0, 1.0)).expect("known") < 0.2);
 }

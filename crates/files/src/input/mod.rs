@@ -38,6 +38,7 @@ mod record_clock;
 mod record_columns;
 mod record_expectations;
 mod record_format;
+mod record_gaps;
 mod record_lines;
 mod record_notes;
 mod record_options;

@@ -260,7 +260,13 @@ fn read_rows(rows: &mut Rows, columns: &RecordColumns, format: &RecordFormat) ->
     let unused = unused.into_iter().filter(is_one).map(as_it_stands).collect();
     let channels = channels.iter().zip(values).map(channel).chain(beside).collect();
     let time = clock.settle(time);
-    let dates = unread.map(|unread| unread.note(columns, &time)).or_else(|| clock.note());
+    let (time, dates) = match unread {
+        Some(unread) => {
+            let (time, note) = unread.settle(columns, time);
+            (time, Some(note))
+        }
+        None => (time, clock.note()),
+    };
     let footer = footer.map(|(line, text, _)| {
         Remark::Footer
             .note(format!("what begins in line {line}, {text}, holds no number: a remark below the rows, which is not read"))

@@ -6,6 +6,7 @@ use super::InputError;
 use super::profile::MOST_S;
 use super::record_columns::RecordColumns;
 use super::record_format::RecordFormat;
+use super::record_gaps::with_gaps;
 use super::record_notes::unread_clock;
 use super::record_options::Key;
 use super::rows::{Rows, quoted};
@@ -155,24 +156,35 @@ impl<'a> Clock<'a> {
     }
 }
 
-/// A column of instants for which an interval stands.
+/// A column of instants for which an interval stands, but for its gaps.
 pub(super) struct Unread<'a> {
     column: usize,
     clock: Clock<'a>,
     /// Its instants; none if one of them cannot be read.
     instants: Option<Vec<f64>>,
+    /// The last digit that its texts show \[s\].
+    written: f64,
 }
 
 impl<'a> Unread<'a> {
     /// The one of these columns, if there is one.
     pub(super) fn of(columns: &RecordColumns, format: &'a RecordFormat) -> Option<Self> {
         let column = columns.unread_clock?;
-        Some(Self { column, clock: Clock::new(Some(column), columns, format), instants: Some(Vec::new()) })
+        Some(Self {
+            column,
+            clock: Clock::new(Some(column), columns, format),
+            instants: Some(Vec::new()),
+            written: f64::INFINITY,
+        })
     }
 
     /// Reads row `number`.
     pub(super) fn read(&mut self, rows: &Rows, columns: &RecordColumns, number: usize) {
         if let Some(mut instants) = self.instants.take() {
+            let text = rows.field(columns.time_of_day.unwrap_or(self.column));
+            let time = self.clock.format.column(Key::Time);
+            let of_number = || (time.unit.scale * time.count).abs() * timestamp::last_digit(text);
+            self.written = self.written.min(timestamp::last_digit_of_clock(text).unwrap_or_else(of_number));
             self.instants = self.clock.read(rows, columns, number).ok().map(|instant| {
                 instants.push(instant);
                 instants
@@ -180,11 +192,17 @@ impl<'a> Unread<'a> {
         }
     }
 
-    /// The note that it is not read, and how it differs from the instants \[s\] that stand for it.
-    pub(super) fn note(mut self, columns: &RecordColumns, time: &[f64]) -> Note {
+    /// The instants \[s\] that stand for it, later by its gaps, and the note on that and on how it differs from them.
+    pub(super) fn settle(mut self, columns: &RecordColumns, time: Vec<f64>) -> (Vec<f64>, Note) {
         let lasts = |time: &[f64]| Some(time.last()? - time.first()?);
-        let by_column = self.instants.take().map(|instants| self.clock.settle(instants)).and_then(|instants| lasts(&instants));
-        unread_clock(&columns.names[self.column], lasts(time).unwrap_or(0.0), by_column)
+        let instants = self.instants.take().map(|instants| self.clock.settle(instants));
+        let by_column = instants.as_deref().and_then(lasts);
+        let (time, gaps) = match (instants, self.clock.format.interval) {
+            (Some(clock), Some(interval)) => with_gaps(time, &clock, interval, self.written),
+            _ => (time, 0),
+        };
+        let note = unread_clock(&columns.names[self.column], gaps, lasts(&time).unwrap_or(0.0), by_column);
+        (time, note)
     }
 }
 

@@ -52,13 +52,18 @@ fn absent(key: Key) -> Note {
     Remark::AbsentColumn.note(format!("there is no column {}; a model can do without it, less surely", key.standard()))
 }
 
-/// Note on a column of instants that is not read, of rows that last `rows` \[s\] by the interval that was declared, and `column` \[s\] by that column, if its
+/// Note on a column of instants that is not read but for its gaps, of rows that last `rows` \[s\] by the interval that was declared, and `column` \[s\] by that column, if its
 /// instants can be read.
-pub(super) fn unread_clock(name: &str, rows: f64, column: Option<f64>) -> Note {
+pub(super) fn unread_clock(name: &str, gaps: usize, rows: f64, column: Option<f64>) -> Note {
     /// Ratio of the two from which one of them is taken to be wrong; a clock that is put forward or back, or shows no seconds, changes less.
     const FAR: f64 = 1.5;
+    let but = match gaps {
+        0 => String::new(),
+        1 => ", but for a gap, over which its clock goes on".to_owned(),
+        many => format!(", but for {many} gaps, over which its clock goes on"),
+    };
     let text = format!(
-        "the instants of the column {} are not read: the interval that was declared stands for them; the rows last {} s",
+        "the instants of the column {} are not read: the interval that was declared stands for them{but}; the rows last {} s",
         quoted(name),
         Seconds(rows)
     );

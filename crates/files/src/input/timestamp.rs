@@ -85,6 +85,19 @@ pub(super) fn time_of_day(text: &str) -> Option<f64> {
     clock(text, HOURS[1]).filter(|(_, zone)| zone.is_none()).map(|(seconds, _)| seconds)
 }
 
+/// The last digit \[s\] of a text with a time of day: a minute where it shows no seconds; `None` of other texts.
+pub(super) fn last_digit_of_clock(text: &str) -> Option<f64> {
+    let (_, minutes) = text.split_once(':')?;
+    let seconds = minutes.get(2..).and_then(|rest| rest.strip_prefix(':'));
+    Some(seconds.map_or(60.0, last_digit))
+}
+
+/// The value of the last digit of the number with which a text begins.
+pub(super) fn last_digit(text: &str) -> f64 {
+    let decimals = text.split_once(['.', ',']).map_or("", |(_, decimals)| decimals);
+    0.1_f64.powi(decimals.bytes().take_while(u8::is_ascii_digit).count() as i32)
+}
+
 /// Year, month and day.
 fn day_of(text: &str) -> Option<(i64, i64, i64)> {
     ordinal(text).or_else(|| calendar(text))
@@ -204,7 +217,23 @@ fn days(year: i64, month: i64, day: i64) -> i64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{First, date, is_date, is_day, slashed, time_of_day};
+    use super::{First, date, is_date, is_day, last_digit, last_digit_of_clock, slashed, time_of_day};
+
+    #[test]
+    fn last_digits() {
+        for (text, seconds) in [
+            ("2024-05-01T12:00:00.25Z", Some(0.01)),
+            ("2024-05-01T12:00+02:00", Some(60.0)),
+            ("01.05.2024 12:00:07", Some(1.0)),
+            ("03/04/2026 08:00 PM", Some(60.0)),
+            ("8:00:00,5", Some(0.1)),
+            ("1:", Some(60.0)),
+            ("20.50", None),
+        ] {
+            assert!(last_digit_of_clock(text).map(|s| (s * 1e3).round()) == seconds.map(|s| s * 1e3), "{text}");
+        }
+        assert_eq!(["20.50", "20,5", "7", ""].map(|text| (last_digit(text) * 1e3).round()), [10.0, 100.0, 1e3, 1e3]);
+    }
 
     #[test]
     fn instants() {

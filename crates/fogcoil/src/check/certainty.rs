@@ -24,7 +24,7 @@ struct Witness {
 
 impl GyroNoise {
     /// Ends of an interval of the white noise, over the fitted one, so many standard deviations to either side: that of the fit, and of whatever contradicts
-    /// it. `None` where the likelihood has no maximum inside its bounds.
+    /// it. `None` where the likelihood does not tell it apart from other noise.
     pub fn white_ends(&self, sds: f64) -> Option<[f64; 2]> {
         let error = self.estimate.standard_errors.white?;
         Some(around(error, self.witnesses(error), sds))

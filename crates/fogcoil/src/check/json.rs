@@ -3,6 +3,7 @@
 use bias::units::S_PER_H;
 use files::Remark;
 use recording::check::{Finding, Repair};
+use recording::noise::Parameter;
 use serde_json::{Value, json};
 
 use super::text::severity;
@@ -69,7 +70,7 @@ fn finding(lines: &Lines<'_>, finding: &Finding) -> Value {
 /// Errors are relative standard errors. A degree per hour times a second is an arc second.
 fn noise(noise: &GyroNoise) -> Value {
     let (model, errors) = (&noise.estimate.model, noise.estimate.standard_errors);
-    let present = |size: f64, value: f64| (size > 0.0).then_some(value);
+    let present = |parameter: Parameter, size: f64, value: f64| (size > 0.0 && noise.is_told(parameter)).then_some(value);
     let point = |point: &recording::allan::AllanPoint| {
         json!({
             "tau_s": point.tau,
@@ -87,11 +88,11 @@ fn noise(noise: &GyroNoise) -> Value {
     json!({
         "white_deg_per_h": model.white,
         "angle_random_walk_deg_per_sqrt_h": noise.angle_random_walk(),
-        "drift_deg_per_h": present(model.drift, model.drift),
-        "drift_time_s": present(model.drift, model.drift_time),
-        "bias_instability_deg_per_h": present(model.drift, model.bias_instability()),
-        "rate_random_walk_deg_per_h_per_sqrt_h": present(model.walk, model.walk * S_PER_H.sqrt()),
-        "quantisation_arcsec": present(model.quantisation, model.quantisation),
+        "drift_deg_per_h": present(Parameter::Drift, model.drift, model.drift),
+        "drift_time_s": present(Parameter::DriftTime, model.drift, model.drift_time),
+        "bias_instability_deg_per_h": present(Parameter::Drift, model.drift, model.bias_instability()),
+        "rate_random_walk_deg_per_h_per_sqrt_h": present(Parameter::Walk, model.walk, model.walk * S_PER_H.sqrt()),
+        "quantisation_arcsec": present(Parameter::Quantisation, model.quantisation, model.quantisation),
         "relative_errors": {
             "white": noise.white_error(),
             "drift": errors.drift,

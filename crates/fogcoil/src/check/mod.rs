@@ -20,7 +20,7 @@ use recording::allan::{AllanPoint, CONFIDENCE, allan};
 use recording::check::white_noise_beyond_cubics;
 use recording::condition::bridged;
 use recording::lag::lagging;
-use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Series, Term, Whitener, identify, residual};
+use recording::noise::{Bounds, NoiseEstimate, NoiseModel, Parameter, Series, Term, Whitener, identify, residual};
 use recording::smooth::smoothed;
 
 use crate::contradictions::contradictions;
@@ -79,7 +79,12 @@ impl GyroNoise {
         let model = &self.estimate.model;
         let white = NoiseModel::white(model.white, model.averaging);
         let of = |model: &NoiseModel| model.allan_deviation(self.interval, self.interval);
-        (of(&white) >= HIDDEN * of(model)).then_some(model.white)
+        (of(&white) >= HIDDEN * of(model) && self.is_told(Parameter::White)).then_some(model.white)
+    }
+
+    /// Whether the recording tells a parameter of the model: the likelihood is not greatest at an end of the search for it.
+    pub fn is_told(&self, parameter: Parameter) -> bool {
+        !self.estimate.at_edge.contains(&parameter)
     }
 
     /// Angle random walk \[deg/√h\]; `None` of momentary values, and where other noise hides it.
@@ -95,7 +100,7 @@ const HIDDEN: f64 = 0.1;
 pub const NO_WHITE: &str =
     "white noise is hidden by slower noise, or by what temperature does to the rate; record faster, or at one temperature";
 /// Reason why a fitted number has no interval.
-pub const NO_MAXIMUM: &str = "the likelihood of the noise has no maximum within its bounds; record longer, at one temperature";
+pub const NO_MAXIMUM: &str = "the record does not tell it apart from other noise; record longer, at one temperature";
 /// Innovations beyond so many standard deviations are left out, of long recordings beyond √(2 ln rows): normal noise has less than one.
 const UNEXPECTED: f64 = 4.0;
 /// Slope of the Allan deviation at its beginning below which quantisation is sought: between its own, -1, and white noise's, -1/2.

@@ -7,7 +7,7 @@ use bias::units::S_PER_H;
 use files::{Note, Remark};
 use recording::Seconds;
 use recording::check::{Finding, FindingKind, Gap, Severity};
-use recording::noise::{StandardErrors, Term};
+use recording::noise::{Parameter, StandardErrors, Term};
 
 use super::{Analysis, GyroNoise, NO_MAXIMUM};
 use crate::input::RecordCase;
@@ -137,6 +137,13 @@ fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
     let told =
         |name: &str, value: f64, error: String, unit: &str| vec![name.to_owned(), significant(value, 3), error, unit.to_owned()];
     let row = |name: &str, value: f64, error: Option<f64>, unit: &str| told(name, value, percent(error), unit);
+    // what stands at an end of the search is no value
+    let found = |parameter: Parameter, name: &str, value: f64, error: Option<f64>, unit: &str| {
+        if noise.is_told(parameter) {
+            return row(name, value, error, unit);
+        }
+        [name, "-", "not told by this record", unit].map(str::to_owned).to_vec()
+    };
     let mut rows = vec![["", "value", "± 1 sd", "unit"].map(str::to_owned).to_vec()];
     match noise.white() {
         Some(sd) => rows.push(told("white noise of a sample", sd, white(noise), "deg/h")),
@@ -149,15 +156,15 @@ fn gyro(out: &mut String, analysis: &Analysis, noise: &GyroNoise) {
         rows.push(vec!["  the meta file's".into(), significant(bench, 3), String::new(), "deg/sqrt(h)".into()]);
     }
     if estimate.terms.contains(&Term::Drift) {
-        rows.push(row("drift", model.drift, drift, "deg/h"));
-        rows.push(row("  correlation time", model.drift_time / S_PER_H, drift_time, "h"));
-        rows.push(row("  floor of the drift alone", model.bias_instability(), drift, "deg/h"));
+        rows.push(found(Parameter::Drift, "drift", model.drift, drift, "deg/h"));
+        rows.push(found(Parameter::DriftTime, "  correlation time", model.drift_time / S_PER_H, drift_time, "h"));
+        rows.push(found(Parameter::Drift, "  floor of the drift alone", model.bias_instability(), drift, "deg/h"));
     }
     if estimate.terms.contains(&Term::Walk) {
-        rows.push(row("rate random walk", model.walk * S_PER_H.sqrt(), walk, "deg/h/sqrt(h)"));
+        rows.push(found(Parameter::Walk, "rate random walk", model.walk * S_PER_H.sqrt(), walk, "deg/h/sqrt(h)"));
     }
     if estimate.terms.contains(&Term::Quantisation) {
-        rows.push(row("quantisation of the angle", model.quantisation, quantisation, "arcsec"));
+        rows.push(found(Parameter::Quantisation, "quantisation of the angle", model.quantisation, quantisation, "arcsec"));
     }
     match noise.floor() {
         Some((tau, floor)) => {

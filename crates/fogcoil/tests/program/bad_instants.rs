@@ -144,3 +144,18 @@ fn no_flag_is_ignored() {
     refuse(bare, &["--unit", "rate=deg/s", "--unit", "rate=deg/h"], &["--unit: rate is given twice"]);
     refuse(bare, &["--column", "rate=a", "--column", "rate=b"], &["--column: rate is given twice"]);
 }
+
+/// A clock by the minute beside rows of half of one: the rows are counted, and those that the logger lost stay lost.
+#[test]
+fn lost_rows_stay_lost_where_an_interval_stands_for_the_clock() {
+    let stamp = |n: usize| format!("03/04/2026 {:02}:{:02} AM", n / 120, n % 120 / 2);
+    let sound = table((120..420).map(stamp));
+    let lost = table((120..420).filter(|n| !(200..220).contains(n) && !(300..307).contains(n)).map(stamp));
+    let with_gaps = "gaps             2  (27 rows missing)";
+    let but = "stands for them, but for 2 gaps, over which its clock goes on; the rows last 8970 s, by the column 8940 s";
+    let interval = &["--interval", "30"];
+    told(&lost, interval, &["note: ", with_gaps, but]);
+    told(&sound, interval, &["gaps             0", "stands for them; the rows last 8970 s, by the column 8940 s"]);
+    let first = table((120..420).filter(|n| !(121..140).contains(n)).map(stamp));
+    told(&first, interval, &["gaps             1  (19 rows missing)", "but for a gap, over which its clock goes on"]);
+}

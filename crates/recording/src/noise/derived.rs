@@ -1,19 +1,20 @@
 //! Numbers that follow from an identified noise, with their errors.
 
 use super::NoiseModel;
-use super::identify::{NoiseEstimate, parameter};
+use super::identify::{NoiseEstimate, Parameter};
 
 /// Step of the derivatives in the logarithms of the parameters.
 const STEP: f64 = 1e-4;
 
 impl NoiseEstimate {
     /// Standard error of the natural logarithm of a positive number that follows from the model, to first order, with the correlation of the
-    /// parameters; `None` where the likelihood has no maximum inside its bounds.
+    /// parameters, without those at an edge; `None` where the likelihood is too flat to tell.
     pub fn relative_error(&self, of: impl Fn(&NoiseModel) -> f64) -> Option<f64> {
         let covariance = self.covariance.as_ref()?;
+        let parameters = Parameter::all(&self.terms);
         let scaled = |number: usize, by: f64| {
             let mut model = self.model;
-            *parameter(&mut model, &self.terms, number) *= by.exp();
+            *parameters[number].of(&mut model) *= by.exp();
             of(&model).ln()
         };
         let slope = |number: usize| (scaled(number, STEP) - scaled(number, -STEP)) / (2.0 * STEP);

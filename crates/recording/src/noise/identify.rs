@@ -41,7 +41,7 @@ impl Bounds {
 
 /// Standard error of the natural logarithm of each parameter (for small ones: its relative standard error).
 ///
-/// `None` where the term is absent, or where the likelihood has no maximum inside the bounds.
+/// `None` where the term is absent, or where the likelihood has no maximum inside the bounds: see [`NoiseEstimate::at_edge`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StandardErrors {
     /// Uncertainty of the white noise.
@@ -57,19 +57,57 @@ pub struct StandardErrors {
 }
 
 impl StandardErrors {
-    /// From the covariance of the logarithms: white, then as in the terms.
-    fn of(terms: &[Term], covariance: &DMatrix<f64>) -> Self {
-        let variances = covariance.diagonal();
-        let mut sds = variances.iter().map(|variance| variance.sqrt());
-        let mut errors = Self { white: sds.next(), ..Self::default() };
-        for term in terms {
-            match term {
-                Term::Drift => (errors.drift, errors.drift_time) = (sds.next(), sds.next()),
-                Term::Walk => errors.walk = sds.next(),
-                Term::Quantisation => errors.quantisation = sds.next(),
+    /// From the covariance of the logarithms of these parameters, without those at an edge.
+    fn of(parameters: &[Parameter], covariance: &DMatrix<f64>, at_edge: &[Parameter]) -> Self {
+        let mut errors = Self::default();
+        for (parameter, variance) in parameters.iter().zip(covariance.diagonal().iter()) {
+            let error = Some(variance.sqrt()).filter(|_| !at_edge.contains(parameter));
+            match parameter {
+                Parameter::White => errors.white = error,
+                Parameter::Drift => errors.drift = error,
+                Parameter::DriftTime => errors.drift_time = error,
+                Parameter::Walk => errors.walk = error,
+                Parameter::Quantisation => errors.quantisation = error,
             }
         }
         errors
+    }
+}
+
+/// A parameter of a [`NoiseModel`] that is sought.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Parameter {
+    /// The white noise.
+    White,
+    /// The drift's standard deviation.
+    Drift,
+    /// Its correlation time.
+    DriftTime,
+    /// The rate random walk.
+    Walk,
+    /// The quantisation.
+    Quantisation,
+}
+
+impl Parameter {
+    /// Those of a model with these terms.
+    pub(super) fn all(terms: &[Term]) -> Vec<Self> {
+        let of = |term: &Term| match term {
+            Term::Drift => vec![Self::Drift, Self::DriftTime],
+            Term::Walk => vec![Self::Walk],
+            Term::Quantisation => vec![Self::Quantisation],
+        };
+        std::iter::once(Self::White).chain(terms.iter().flat_map(of)).collect()
+    }
+
+    pub(super) fn of(self, model: &mut NoiseModel) -> &mut f64 {
+        match self {
+            Self::White => &mut model.white,
+            Self::Drift => &mut model.drift,
+            Self::DriftTime => &mut model.drift_time,
+            Self::Walk => &mut model.walk,
+            Self::Quantisation => &mut model.quantisation,
+        }
     }
 }
 
@@ -97,18 +135,21 @@ pub struct NoiseEstimate {
     pub log_likelihood: f64,
     /// The terms that are significant: those of the least BIC.
     pub terms: Vec<Term>,
+    /// Parameters of which the series tells only that they are no smaller, or no larger, than the model's: the likelihood is greatest at an end of the
+    /// search. A drift's size is one with its time. The errors of the others are those at this end.
+    pub at_edge: Vec<Parameter>,
     /// All combinations tried, best first.
     pub candidates: Vec<Candidate>,
     /// Values used.
     pub rows: usize,
     /// Rows averaged into one value; 1 unless the series is very long.
     pub group: usize,
-    /// Covariance of the logarithms of the parameters: white, then as in the terms.
+    /// Covariance of the logarithms of [`Parameter::all`]; what stands at an end of the search is held there.
     pub(super) covariance: Option<DMatrix<f64>>,
 }
 
-/// Sizes of terms relative to the white noise of a value.
-const RELATIVE: [f64; 2] = [1e-3, 1e4];
+/// Share of the least size relative to white noise that a series can tell at which the search for it ends.
+const UNSEEN: f64 = 0.01;
 /// Accuracy of a log likelihood, far below what decides anything, and evaluations that reach it several times over.
 const EFFORT: Effort = Effort { tolerance: 1e-5, evaluations: 1000 };
 /// Edge of the first simplex: the variables are logarithms.
@@ -132,11 +173,14 @@ pub fn identify(series: &Series, bounds: &Bounds) -> Result<NoiseEstimate, Error
     }
     candidates.sort_by(|a, b| a.0.bic.total_cmp(&b.0.bic));
     let (best, shape) = candidates[0].clone();
-    let covariance = problem.covariance(&best, &shape)?;
+    let (parameters, at_edge) = (Parameter::all(&best.terms), problem.at_edge(&best.terms, &shape));
+    let covariance = problem.covariance(&best, &at_edge)?;
+    let errors = |known| StandardErrors::of(&parameters, known, &at_edge);
     Ok(NoiseEstimate {
         model: best.model,
-        standard_errors: covariance.as_ref().map_or_else(StandardErrors::default, |known| StandardErrors::of(&best.terms, known)),
+        standard_errors: covariance.as_ref().map_or_else(StandardErrors::default, errors),
         covariance,
+        at_edge,
         log_likelihood: best.log_likelihood,
         terms: best.terms,
         candidates: candidates.into_iter().map(|(candidate, _)| candidate).collect(),
@@ -192,9 +236,19 @@ impl Problem<'_> {
         self.data.interval * self.data.group as f64
     }
 
+    /// Length of the series in spacings.
+    fn length(&self) -> f64 {
+        let span = self.data.time.last().zip(self.data.time.first()).map_or(0.0, |(last, first)| last - first);
+        (span / self.spacing()).max(self.rows())
+    }
+
     /// Bounds of the logarithms that shape a model: a drift's size and time, a walk's size, a quantisation's size.
+    ///
+    /// Of sizes relative to the white noise of a value a series of n values tells, in magnitude, a walk from 1/n to n^¼, a drift from n^−½ to n^¾, and a
+    /// quantisation from n^−¼ to n: all lie between 1/n and n.
     fn shape_bounds(&self, terms: &[Term]) -> Vec<[f64; 2]> {
-        let relative = RELATIVE.map(f64::ln);
+        let least = UNSEEN / self.length();
+        let relative = [least, least.recip()].map(f64::ln);
         let of = |term: &Term| match term {
             Term::Drift => vec![relative, self.bounds.drift_time.map(f64::ln)],
             Term::Walk | Term::Quantisation => vec![relative],
@@ -206,9 +260,12 @@ impl Problem<'_> {
     fn grid(&self, terms: &[Term]) -> Vec<Vec<f64>> {
         let [shortest, longest] = self.bounds.drift_time;
         let times = [0.1, 0.35, 0.6, 0.85].map(|share: f64| (shortest.ln() * (1.0 - share) + longest.ln() * share).exp());
+        // a walk that few values tell, and by decades one that the whole length does
+        let decades = (0.1 * self.length()).log10().floor().max(2.0) as i32;
+        let walks: Vec<f64> = (1..=decades).rev().map(|decade| 0.1_f64.powi(decade)).chain([0.5]).collect();
         let of = |term: &Term| match term {
             Term::Drift => vec![[0.1, 0.5, 2.0].to_vec(), times.to_vec()],
-            Term::Walk => vec![[0.01, 0.1, 0.5].to_vec()],
+            Term::Walk => vec![walks.clone()],
             Term::Quantisation => vec![[0.2, 2.0].to_vec()],
         };
         let axes: Vec<Vec<f64>> = terms.iter().flat_map(of).collect();
@@ -281,21 +338,52 @@ impl Problem<'_> {
         Ok((Candidate { terms: terms.to_vec(), model, log_likelihood, bic }, shape))
     }
 
-    /// Covariance of the logarithms of the parameters, from the curvature of the log likelihood.
-    fn covariance(&self, best: &Candidate, shape: &[f64]) -> Result<Option<DMatrix<f64>>, Error> {
+    /// What a shape at an end of the search leaves untold. A size at its lower end is itself untold; one at its upper end has no white noise beside it.
+    fn at_edge(&self, terms: &[Term], shape: &[f64]) -> Vec<Parameter> {
         let margin = 2.0 * CURVATURE_STEP;
-        let inside =
-            shape.iter().zip(self.shape_bounds(&best.terms)).all(|(x, [low, high])| *x > low + margin && *x < high - margin);
-        Ok(Cholesky::new(self.curvature(best)?).filter(|_| inside).map(|factor| factor.inverse()))
+        let mut untold = Vec::new();
+        let shaping = Parameter::all(terms).into_iter().skip(1);
+        for ((parameter, x), [low, high]) in shaping.zip(shape).zip(self.shape_bounds(terms)) {
+            match (parameter, *x <= low + margin, *x >= high - margin) {
+                (_, false, false) => {}
+                (Parameter::DriftTime, ..) => untold.extend([Parameter::Drift, parameter]),
+                (_, true, _) => untold.push(parameter),
+                (_, false, true) => untold.push(Parameter::White),
+            }
+        }
+        untold
     }
 
-    /// Minus the second derivatives, by central differences; order: white, then as in the terms.
+    /// Covariance of the logarithms of the parameters, from the curvature of the log likelihood; what is held at an end of the search has none.
+    fn covariance(&self, best: &Candidate, at_edge: &[Parameter]) -> Result<Option<DMatrix<f64>>, Error> {
+        // of a drift whose time is held the size at that time is told
+        let is_held = |parameter: &Parameter| match parameter {
+            Parameter::Drift if at_edge.contains(&Parameter::DriftTime) => false,
+            other => at_edge.contains(other),
+        };
+        let parameters = Parameter::all(&best.terms);
+        let free: Vec<usize> = (0..parameters.len()).filter(|n| !is_held(&parameters[*n])).collect();
+        let curvature = self.curvature(best)?.select_rows(&free).select_columns(&free);
+        Ok(Cholesky::new(curvature).map(|factor| {
+            let known = factor.inverse();
+            let mut covariance = DMatrix::zeros(parameters.len(), parameters.len());
+            for (i, row) in free.iter().enumerate() {
+                for (j, column) in free.iter().enumerate() {
+                    covariance[(*row, *column)] = known[(i, j)];
+                }
+            }
+            covariance
+        }))
+    }
+
+    /// Minus the second derivatives, by central differences; in the order of [`Parameter::all`].
     fn curvature(&self, best: &Candidate) -> Result<DMatrix<f64>, Error> {
-        let count = 1 + self.shape_bounds(&best.terms).len();
+        let parameters = Parameter::all(&best.terms);
+        let count = parameters.len();
         let at = |changes: &[(usize, f64)]| -> Result<f64, Error> {
             let mut model = best.model;
             for &(number, change) in changes {
-                *parameter(&mut model, &best.terms, number) *= change.exp();
+                *parameters[number].of(&mut model) *= change.exp();
             }
             self.log_likelihood(&model)
         };
@@ -312,22 +400,6 @@ impl Problem<'_> {
             .map(|k| second((k / count).max(k % count), (k / count).min(k % count)))
             .collect::<Result<_, _>>()?;
         Ok(DMatrix::from_vec(count, count, rows))
-    }
-}
-
-/// A parameter of a model with these terms, by its number: white, then as in the terms.
-pub(super) fn parameter<'m>(model: &'m mut NoiseModel, terms: &[Term], number: usize) -> &'m mut f64 {
-    let names = terms.iter().flat_map(|term| match term {
-        Term::Drift => vec![1, 2],
-        Term::Walk => vec![3],
-        Term::Quantisation => vec![4],
-    });
-    match std::iter::once(0).chain(names).nth(number) {
-        Some(1) => &mut model.drift,
-        Some(2) => &mut model.drift_time,
-        Some(3) => &mut model.walk,
-        Some(4) => &mut model.quantisation,
-        _ => &mut model.white,
     }
 }
 

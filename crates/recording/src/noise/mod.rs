@@ -10,6 +10,6 @@ mod whitener;
 
 pub use data::Series;
 pub use fitted::{Fitted, fitted, fitted_within};
-pub use identify::{Bounds, Candidate, NoiseEstimate, StandardErrors, Term, identify, residual};
+pub use identify::{Bounds, Candidate, NoiseEstimate, Parameter, StandardErrors, Term, identify, residual};
 pub use model::NoiseModel;
 pub use whitener::Whitener;
