@@ -21,6 +21,7 @@ use super::timestamp;
 use crate::Error;
 use crate::note::Note;
 use crate::remark::Remark;
+use crate::shown::shown_path;
 
 /// Most rows: what fits in a gigabyte with its checks.
 const MOST_ROWS: usize = 10_000_000;
@@ -95,9 +96,21 @@ pub(super) fn read_as(path: &Path, format: &RecordFormat, options: &RecordOption
     let flags = [("--map", &options.map), ("--meta", &options.meta)];
     let flags = flags.into_iter().filter_map(|(flag, file)| Some((flag, file.clone()?))).collect();
     let case = checked(Rows::open(path, "a recording (*.csv)", format.dialect)?, format, meta);
+    // the line of names, and what stands above it, is as the map says, or is not
+    let names = format.dialect.preamble as usize + 1;
     case.map(|case| RecordCase { flags, ..case }).map_err(|error| match error {
-        Error::Input(wrong) if wrong.problem == NOT_UTF8 => {
-            let remedy = format!("{}, or let `fogcoil check RECORD --write-map` find how it is encoded", wrong.remedy);
+        Error::Input(wrong) => {
+            let mut remedy = wrong.remedy.clone();
+            if wrong.problem == NOT_UTF8 {
+                remedy += ", or let `fogcoil check RECORD --write-map` find how it is encoded";
+            }
+            let is_of_form = wrong.problem == NOT_UTF8 || wrong.line.is_some_and(|line| line <= names);
+            if let Some(map) = options.map.as_deref().filter(|_| is_of_form && wrong.file == path) {
+                remedy += &format!(
+                    " (read by --map {}, which stands for every record; a map beside each record, NAME.map.ron, is for it alone)",
+                    shown_path(map)
+                );
+            }
             InputError { remedy, ..wrong }.into()
         }
         other => other,
