@@ -141,6 +141,10 @@ remarks! {
         "Below the last row of a recording stand lines without a number, a date or a time of day: remarks of the logger.",
         "They are not read.",
         "None is needed. A line that was a row once, and lost its numbers, is not read either: see the line that the message names.";
+    LeftOutTable "left-out-table":
+        "A table in a folder of recordings names instants and a coil's drives alone: it is a profile.",
+        "It is not read: a profile has no rate.",
+        "None is needed; to have it read all the same, give it by its name.";
     NamesAgain "names-again":
         "The line of names stands again among the rows of a recording: a logger began anew.",
         "It is not read, and neither are as many lines below it as the map file says of the first.",

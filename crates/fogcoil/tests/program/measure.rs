@@ -113,10 +113,13 @@ fn the_steady_sensitivity_of_a_coil_is_measured_again() {
     // of a folder its recordings; one that cannot be used does not keep the others from being measured
     std::fs::create_dir(folder.path("lot")).unwrap();
     std::fs::copy(folder.path("r.csv"), folder.path("lot/r.csv")).unwrap();
-    folder.write("lot/bad.csv", "time_s,chamber_c\n0,20\n");
+    folder.write("lot/bad.csv", "time_s,chamber_c,spool_c\n0,20,20\n");
+    // a profile is no recording
+    folder.write("lot/r.profile.csv", "time_s,chamber_c\n0,20\n600,30\n");
     let output = folder.run(&["measure", "lot", "--json"]);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert!(stderr(&output).contains("1 of 2 recordings cannot be used"), "{}", stderr(&output));
+    assert!(!stderr(&output).contains("r.profile.csv") || stderr(&output).contains("note: lot/r.profile.csv: not read"));
     let lot: Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(lot["records"][0]["file"], "lot/bad.csv");
     assert!(lot["records"][0]["problem"].as_str().unwrap().contains("rate_deg_per_h"), "{lot}");
