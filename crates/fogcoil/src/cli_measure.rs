@@ -60,6 +60,11 @@ pub(crate) fn run(arguments: &Measure, progress: &Progress) -> Result<(), Error>
     };
     let prediction = case.as_ref().map(predict).transpose()?;
     let prediction = prediction.as_ref();
+    for one in measured.iter_mut().flatten() {
+        // a warning comes before the notes
+        let doubt = prediction.and_then(|prediction| prediction.other_unit(one));
+        one.notes.splice(0..0, doubt);
+    }
     print(&match &measured[..] {
         _ if *json => line(&all(&measured, prediction)),
         [Ok(measured)] if progress.is_silent() => text_without_notes(measured, prediction),

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use recording::check::{Report, Severity, check};
+use recording::check::{Report, Severity, Unit, check};
 use recording::{Channel, Recording, Sampling, Seconds};
 
 use super::InputError;
@@ -35,6 +35,8 @@ pub struct RecordCase {
     pub ignored: Recording,
     /// The result: rows to keep, values to use.
     pub report: Report,
+    /// Other units in which the rate may be, those that are rare last: conversion from the rate as it was read; none of counts.
+    pub rate_units: Vec<Unit>,
     /// Seconds over which a rate is a mean.
     pub averaging: f64,
     /// The meta file, if there is one.
@@ -148,7 +150,8 @@ fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<(PathBuf, Meta)>)
     notes.extend(unread);
     notes.extend(meta.as_ref().and_then(|meta| interval_note(meta, interval)));
     let (flags, fingerprint) = (Vec::new(), rows.fingerprint());
-    Ok(RecordCase { recording, ignored, report, averaging, meta, notes, lines, flags, fingerprint })
+    let rate_units = format.column(Key::Rate).other_units(Key::Rate);
+    Ok(RecordCase { recording, ignored, report, rate_units, averaging, meta, notes, lines, flags, fingerprint })
 }
 
 /// The meta file of a recording that lasts `span` \[s\], unless a rate would be a mean over more.

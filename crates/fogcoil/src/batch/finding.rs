@@ -105,7 +105,11 @@ impl Inputs<'_> {
     /// The figures of the unit: one that was held out of the fit is measured as well.
     fn measured(&self, unit: &Read) -> Value {
         let all: Vec<Measurement> = unit.fits.iter().chain(&unit.holdouts).filter_map(|record| measure(record).ok()).collect();
-        of_unit(&all).map_or(Value::Null, |figures| measure::json(&figures, Some(self.prediction)))
+        of_unit(&all).map_or(Value::Null, |mut figures| {
+            let doubt = self.prediction.other_unit(&figures);
+            figures.notes.splice(0..0, doubt);
+            measure::json(&figures, Some(self.prediction))
+        })
     }
 }
 

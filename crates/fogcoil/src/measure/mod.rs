@@ -12,6 +12,7 @@ mod text;
 
 use bias::units::S_PER_MIN;
 use files::{Note, Remark};
+use recording::check::Unit;
 use recording::condition::{Thinned, Thinning, bridged, thinned};
 use recording::ramp::{Absent, Estimate, Input, Response, respond};
 use recording::{Recording, Seconds};
@@ -64,6 +65,8 @@ pub struct Measurement {
     pub floor_time: Option<f64>,
     /// Whether the floor is an upper bound, as the temperature changed.
     pub floor_is_bound: bool,
+    /// Other units in which the rate may be, those that are rare last: conversion from the rate as it was read.
+    pub rate_units: Vec<Unit>,
     /// Further remarks for the user, with the reason for each number that is not told.
     pub notes: Vec<Note>,
 }
@@ -106,6 +109,7 @@ pub fn measure(case: &RecordCase) -> Result<Measurement, InputError> {
         bias_instability: noise.floor,
         floor_time: noise.floor_time,
         floor_is_bound: analysis.noise.as_ref().is_some_and(|noise| noise.is_bound),
+        rate_units: case.rate_units.clone(),
         notes,
     };
     measured.notes.extend(one_temperature(&measured).map(|note| note.at(file)));

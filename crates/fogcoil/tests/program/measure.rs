@@ -126,6 +126,22 @@ fn the_steady_sensitivity_of_a_coil_is_measured_again() {
     assert_eq!(lot["records"][1]["sensitivity"], found["sensitivity"]);
     let output = folder.run(&["measure", "lot", "--quiet"]);
     assert!(stdout(&output).contains("lot/bad.csv") && stdout(&output).contains("angle random walk"), "{}", stdout(&output));
+    // a rate in rad/s that is read in deg/s is 57.3 times too small for the design, and one in deg/s that is read so is not
+    let in_unit = |per: f64| -> String {
+        let text = std::fs::read_to_string(folder.path("r.csv")).unwrap();
+        let rows = text.lines().skip(1).map(|line| {
+            let (rest, rate) = line.rsplit_once(',').unwrap();
+            format!("{rest},{:e}\n", rate.parse::<f64>().unwrap() / per)
+        });
+        "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &rows.collect::<String>()
+    };
+    folder.write("rad.csv", in_unit(3600.0 * 180.0 / std::f64::consts::PI));
+    folder.write("deg.csv", in_unit(3600.0));
+    let [wrong, right, said] = [("rad.csv", "rate=deg/s"), ("deg.csv", "rate=deg/s"), ("rad.csv", "rate=rad/s")]
+        .map(|(record, unit)| stdout(&folder.run(&["measure", record, "coil.ron", "--unit", unit, "--quiet"])));
+    let warning = "warning: rad.csv: rate_deg_per_h seems to be in rad/s: its sensitivity is 57.3 times too small for ";
+    assert!(wrong.contains(warning) && wrong.contains("give --unit rate=rad/s") && wrong.contains("[rate-unit]"), "{wrong}");
+    assert!(!right.contains("[rate-unit]") && !said.contains("[rate-unit]"), "{right}{said}");
     // a line each, with the design's number once
     let table = stdout(&folder.run(&["measure", "r.csv", "lot/r.csv", "coil.ron"]));
     let [low, value, high] = interval(&found["sensitivity"]);
