@@ -141,6 +141,10 @@ remarks! {
         "Below the last row of a recording stand lines without a number, a date or a time of day: remarks of the logger.",
         "They are not read.",
         "None is needed. A line that was a row once, and lost its numbers, is not read either: see the line that the message names.";
+    LeftOutTable "left-out-table":
+        "A table in a folder of recordings names instants and a coil's drives alone: it is a profile.",
+        "It is not read: a profile has no rate.",
+        "None is needed; to have it read all the same, give it by its name.";
     NamesAgain "names-again":
         "The line of names stands again among the rows of a recording: a logger began anew.",
         "It is not read, and neither are as many lines below it as the map file says of the first.",
@@ -319,6 +323,10 @@ remarks! {
         "The model follows the recording far better with the rate negated.",
         "The answer is void if the sign is wrong.",
         "Check the sense of the gyro's axis and `winding.cw_climbs`; if the rate is logged with the other sign, read it so: `--scale rate=-1`.";
+    RateUnit "rate-unit":
+        "The rate is smaller or larger than the design makes it by the ratio of two units of rates, ten or more; in the other unit the recording is as the design predicts.",
+        "The answer is void if the unit is wrong.",
+        "Say the unit: `--unit rate=UNIT`, or `unit` of the rate in the map file; the message names it.";
     DoubtedDrawing "doubted-drawing":
         "The model follows the recordings far better with one word of the drawing changed: a bond that is not there, the side to which the winding climbs, or the spool's material.",
         "The answer seeks faults or constants where the unit may be made otherwise than it is drawn; records alone may not tell the two apart.",
@@ -392,7 +400,7 @@ remarks! {
 impl Remark {
     /// Whether it says that a record is read wrongly, or is no record of the unit: what is concluded from it is void.
     pub fn voids(self) -> bool {
-        matches!(self, Self::ExchangedColumns | Self::LooseThermometer | Self::ChamberJump | Self::ReversedRate)
+        matches!(self, Self::ExchangedColumns | Self::LooseThermometer | Self::ChamberJump | Self::ReversedRate | Self::RateUnit)
     }
 
     /// The kind of a finding of [`recording::check`].

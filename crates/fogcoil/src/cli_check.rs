@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::Args;
-use fogcoil::input::{InputError, Key, RecordOptions, recordings};
+use fogcoil::input::{InputError, Key, RecordOptions, recordings_without_profiles};
 use fogcoil::output::Content;
 use fogcoil::{Error, check, input, output};
 use serde_json::json;
@@ -14,7 +14,7 @@ use crate::{line, print};
 
 #[derive(Args)]
 pub(crate) struct Check {
-    /// Recordings: time_s,chamber_c,spool_c,rate_deg_per_h, or a logger's own files with the flags below; of a folder its *.csv and those of its folders
+    /// Recordings: time_s,chamber_c,spool_c,rate_deg_per_h, or a logger's own files with the flags below; of a folder its *.csv and those of its folders, without profiles
     #[arg(value_name = "RECORD.csv|FOLDER", required = true)]
     pub(crate) records: Vec<PathBuf>,
     #[command(flatten)]
@@ -36,7 +36,9 @@ pub(crate) struct Check {
 pub(crate) fn run(arguments: &Check, progress: &Progress) -> Result<(), Error> {
     let Check { records, format, meta, write_map, json, svg } = arguments;
     let options = format.options(meta.clone());
-    match &recordings(records)?[..] {
+    let (records, left_out) = recordings_without_profiles(records, &options)?;
+    progress.tell(&left_out);
+    match &records[..] {
         [record] => one(record, &options, arguments, progress),
         _ if write_map.is_some() || svg.is_some() => Err(Error::usage(
             "--write-map and --svg are of one recording; give one: its map serves all of them with --map FILE.map.ron, here and in every other command",

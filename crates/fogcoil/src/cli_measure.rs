@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use fogcoil::input::recordings;
+use fogcoil::input::recordings_without_profiles;
 use fogcoil::measure::{Prediction, all, measure, several, text, text_without_notes};
 use fogcoil::{Error, input};
 
@@ -13,7 +13,7 @@ use crate::{line, print};
 
 #[derive(Args)]
 pub(crate) struct Measure {
-    /// Recordings, of several a line each; of a folder its *.csv and those of its folders; and the case file of the coil where its prediction is to stand beside them
+    /// Recordings, of several a line each; of a folder its *.csv and those of its folders, without profiles; and the case file of the coil where its prediction is to stand beside them
     #[arg(value_name = "RECORD.csv|FOLDER|COIL.ron", required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
@@ -37,8 +37,9 @@ pub(crate) fn run(arguments: &Measure, progress: &Progress) -> Result<(), Error>
     if records.is_empty() {
         return Err(Error::usage("no recording is given; give at least one beside the coil file"));
     }
-    let records = recordings(&records)?;
     let options = format.options(meta.clone());
+    let (records, left_out) = recordings_without_profiles(&records, &options)?;
+    progress.tell(&left_out);
     let case = coil.map(|path| progress.read_coil(path)).transpose()?;
     let mut measured = Vec::new();
     for path in &records {
@@ -59,6 +60,11 @@ pub(crate) fn run(arguments: &Measure, progress: &Progress) -> Result<(), Error>
     };
     let prediction = case.as_ref().map(predict).transpose()?;
     let prediction = prediction.as_ref();
+    for one in measured.iter_mut().flatten() {
+        // a warning comes before the notes
+        let doubt = prediction.and_then(|prediction| prediction.other_unit(one));
+        one.notes.splice(0..0, doubt);
+    }
     print(&match &measured[..] {
         _ if *json => line(&all(&measured, prediction)),
         [Ok(measured)] if progress.is_silent() => text_without_notes(measured, prediction),

@@ -31,7 +31,7 @@ pub(crate) struct Simulate {
     record: Option<PathBuf>,
     /// A file that says how that recording is read, in place of one beside it, or how the profile is read: names and units of time and chamber, separator,
     /// decimal comma
-    #[arg(long, value_name = "FILE.ron", conflicts_with = "spool")]
+    #[arg(long, value_name = "FILE.ron")]
     map: Option<PathBuf>,
     /// Course of the temperatures between the profile's rows
     #[arg(long, value_enum, default_value_t = Between::Linear, conflicts_with = "spool")]
@@ -39,7 +39,8 @@ pub(crate) struct Simulate {
     /// Add a row every S seconds from the first row, on the straight lines between the profile's own
     #[arg(long, value_name = "S", value_parser = step, conflicts_with = "spool")]
     step: Option<f64>,
-    /// In place of a profile: a record time_s,spool_c of the spool's thermometer, from rest, to infer the chamber from
+    /// In place of a profile: a record time_s,spool_c of the spool's thermometer, from rest, to infer the chamber from; with a map file, given or beside it, a
+    /// recording, read as that of --record
     #[arg(long, value_name = "RECORD.csv")]
     spool: Option<PathBuf>,
     /// Standard deviation of the record's readings in K, rounding included
@@ -80,9 +81,9 @@ fn noise(text: &str) -> Result<f64, String> {
 pub(crate) fn run(arguments: &Simulate, progress: &Progress) -> Result<(), Error> {
     let Simulate { coil, profile, record, map, spool, mechanisms, out, report, vtu, band, json, no_cache, .. } = arguments;
     let own = input::read_simulated(mechanisms)?;
-    let recorded = record.iter().flat_map(|path| arguments.reading(&[]).files(path));
+    let recorded = record.iter().chain(spool).flat_map(|path| arguments.reading(&[]).files(path));
     let mapped = map.as_ref().filter(|_| profile.is_some());
-    let given = [profile.as_ref(), mapped, spool.as_ref()].into_iter().flatten();
+    let given = [profile.as_ref(), mapped].into_iter().flatten();
     let inputs: Vec<PathBuf> = given.chain(mechanisms).cloned().chain(recorded).collect();
     let section = vtu.as_deref().map_or(Vec::new(), places);
     let mut outputs = vec![Some(out.as_path()), report.as_deref(), band.as_deref()];
@@ -144,7 +145,7 @@ impl Simulate {
         let reading = |path: &Path| format!("reading {}", files::shown_path(path));
         match (&self.profile, &self.spool) {
             (_, Some(spool)) => {
-                let record = progress.during(&reading(spool), || input::read_spool(spool, &case.design))?;
+                let record = progress.during(&reading(spool), || input::read_spool(spool, &self.reading(&[]), &case.design))?;
                 let modelled = model(&record.drives)?;
                 let inferred =
                     progress.during("inferring the chamber", || simulate::infer(record, self.spool_noise, &modelled.0))?;

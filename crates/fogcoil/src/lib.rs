@@ -61,6 +61,7 @@ pub mod picture;
 pub mod picture_cell;
 pub mod prepare;
 mod program;
+mod rate_unit;
 pub mod recommend;
 pub mod report;
 pub mod section_files;

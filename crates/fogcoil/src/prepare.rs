@@ -12,7 +12,7 @@ use mechanisms::{
     SPOOL as SPOOL_NUMBER, USUAL_NOISE,
 };
 use progress::Step;
-use recording::check::{Finding, FindingKind, Severity, white_noise};
+use recording::check::{Finding, FindingKind, Severity, Unit, white_noise};
 use recording::condition::{Rest, Thinned, Thinning, Unrest, bridged, filled, span, thinned, unrest};
 use recording::smooth::resolution;
 use recording::{Recording, Seconds, median_interval};
@@ -48,6 +48,8 @@ pub(crate) struct Record {
     /// drive of the model
     pub(crate) drive: Chamber,
     pub(crate) averaging: f64,
+    /// other units in which the rate may be, those that are rare last
+    pub(crate) rate_units: Vec<Unit>,
     /// flags that name files with which it was read
     pub(crate) flags: Vec<(&'static str, PathBuf)>,
     /// further columns, which laws name, without gaps
@@ -280,7 +282,8 @@ pub(crate) fn ready(case: &RecordCase, notes: &mut Vec<Note>) -> Result<Record, 
     let (meta, flags, instants) = (case.meta.clone(), case.flags.clone(), (before, earlier));
     let is_held = !held.is_empty();
     let ignored = ignored(case, interval);
-    Ok(Record { fingerprint, observed, chamber, drive, averaging, flags, columns, ignored, meta, is_held, instants })
+    let rate_units = case.rate_units.clone();
+    Ok(Record { fingerprint, observed, chamber, drive, averaging, rate_units, flags, columns, ignored, meta, is_held, instants })
 }
 
 /// Columns that nothing reads, in the rows of a record that was made ready.

@@ -204,7 +204,7 @@ impl CoilFile {
             drifts: Mirror::of(&design.drifts),
             dehomogenization: DehomogenizationFile::Matrix(Mirror::of(&design.dehomogenization)),
             tolerances: tolerances::written(known, design),
-            correlations: tolerances::correlated(known),
+            correlations: tolerances::correlated(known, design),
         }
     }
 }

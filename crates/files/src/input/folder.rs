@@ -3,6 +3,42 @@
 use std::path::{Path, PathBuf};
 
 use super::InputError;
+use super::profile_columns::DRIVES;
+use super::record_options::{RecordOptions, TIME};
+use super::rows::{Dialect, Rows};
+use crate::note::Note;
+use crate::remark::Remark;
+
+/// Those of [`recordings`] that are read in a folder, and a note on each table that is left out: one of instants and drives alone is a profile, which has no rate.
+///
+/// # Errors
+/// As [`recordings`], and if nothing is left.
+pub fn recordings_without_profiles(paths: &[PathBuf], options: &RecordOptions) -> Result<(Vec<PathBuf>, Vec<Note>), InputError> {
+    let left_out = |path: &PathBuf| !paths.contains(path) && options.map_of(path).is_none() && is_profile(path);
+    let (profiles, records): (Vec<PathBuf>, Vec<PathBuf>) = recordings(paths)?.into_iter().partition(left_out);
+    match profiles.first() {
+        Some(profile) if records.is_empty() => {
+            let others = "a folder with recordings, or a recording by its name";
+            Err(InputError::whole(
+                profile,
+                "is a profile, which has no rate, and there is no recording beside it",
+                format!("give {others}"),
+            ))
+        }
+        _ => {
+            let note = |path: &PathBuf| Remark::LeftOutTable.note("not read: a profile, which has no rate").at(path);
+            let notes = profiles.iter().map(note).collect();
+            Ok((records, notes))
+        }
+    }
+}
+
+/// Whether the first line of a table names instants and drives of a coil, and nothing else.
+fn is_profile(path: &Path) -> bool {
+    let is_known = |name: &str| name == TIME || DRIVES.iter().any(|(drive, _)| *drive == name);
+    let Ok(mut rows) = Rows::open(path, "a recording (*.csv)", Dialect::STANDARD) else { return false };
+    rows.header(TIME).is_ok() && rows.fields().any(|name| name == TIME) && rows.fields().all(is_known)
+}
 
 /// The recordings that paths name: a file itself; of a folder its `*.csv`, then those of the folders in it, by name.
 ///
@@ -54,6 +90,26 @@ pub fn is_record(file: &Path) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_profile_in_a_folder_is_left_out() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        std::fs::create_dir_all(at("lot")).unwrap();
+        std::fs::write(at("lot/a.profile.csv"), "time_s,chamber_c\n0,20\n").unwrap();
+        let of = |paths: &[PathBuf]| recordings_without_profiles(paths, &RecordOptions::default());
+        let said = of(&[at("lot")]).unwrap_err().to_string();
+        assert!(said.contains("a.profile.csv: is a profile, which has no rate, and there is no recording beside it"), "{said}");
+        std::fs::write(at("lot/a.csv"), "time_s,chamber_c,rate_deg_per_h\n0,20,1\n").unwrap();
+        std::fs::write(at("lot/b.csv"), "time_s,chamber_c,foo\n0,20,1\n").unwrap();
+        let (found, notes) = of(&[at("lot")]).unwrap();
+        assert_eq!(found, ["lot/a.csv", "lot/b.csv"].map(at));
+        assert!(notes.len() == 1 && notes[0].to_string().contains("a.profile.csv: not read: a profile"), "{notes:?}");
+        // one that is given by its name, or that a map says how to read, is read
+        assert_eq!(of(&[at("lot/a.profile.csv")]).unwrap().0, [at("lot/a.profile.csv")]);
+        std::fs::write(at("lot/a.profile.map.ron"), "()").unwrap();
+        assert_eq!(of(&[at("lot")]).unwrap().0.len(), 3);
+    }
 
     #[test]
     fn files_and_folders_and_folders_of_folders() {

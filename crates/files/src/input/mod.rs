@@ -71,7 +71,7 @@ pub(crate) use coil_file::CoilFile;
 pub use edit::{field_text, with_fields};
 pub use error::InputError;
 pub use fingerprint::{Fingerprint, hexadecimal};
-pub use folder::{below, is_record, no_recording, recordings};
+pub use folder::{below, is_record, no_recording, recordings, recordings_without_profiles};
 pub use mechanism::{MechanismCase, check_mechanism, read_mechanism};
 pub use meta::{Meta, Rate, Serial, TemperatureSensor, Thermometer};
 pub use name::meant;

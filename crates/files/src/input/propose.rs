@@ -7,8 +7,9 @@ use recording::check::{Finding, FindingKind, Severity};
 use super::encoding::Encoding;
 use super::map_file::{MapFile, in_quotes};
 use super::record::{self, RecordCase};
+use super::record_expectations::{EARTH_DEG_PER_H, OFFSET_DEG_PER_H};
 use super::record_format::RecordFormat;
-use super::record_options::{Key, RecordOptions};
+use super::record_options::{Key, RATE, RecordOptions};
 use super::rows::quoted;
 use super::sniff::{Sniffed, sniff};
 use super::sniff_columns::{
@@ -17,6 +18,8 @@ use super::sniff_columns::{
 };
 use super::timestamp::FORMS;
 use crate::Error;
+use crate::note::Note;
+use crate::remark::Remark;
 
 /// Most lines of temperatures that are not used.
 const MOST_ASIDES: usize = 25;
@@ -47,6 +50,8 @@ pub fn propose_map(path: &Path, options: &RecordOptions) -> Result<ProposedMap, 
     }
     let mut case = read(path, &map, options)?;
     let others = other_units(&map, &case);
+    let several = others.iter().filter(|(key, units)| *key == Key::Rate && units.len() > 1);
+    let warnings: Vec<Note> = several.filter_map(|(_, units)| doubted_rate(units, &case)).collect();
     for (key, units) in &others {
         let standard = key.units()[0].names[0];
         let others: String = units[1..].iter().map(|other| format!(", or {other}")).collect();
@@ -57,6 +62,7 @@ pub fn propose_map(path: &Path, options: &RecordOptions) -> Result<ProposedMap, 
     if !others.is_empty() {
         case = read(path, &map, options)?;
     }
+    case.notes.extend(warnings);
     Ok(ProposedMap { text: map.text(&heading, &doubts, &asides), case: Ok(case) })
 }
 
@@ -76,6 +82,26 @@ fn other_units(map: &MapFile, case: &RecordCase) -> Vec<(Key, Vec<String>)> {
         _ => None,
     };
     case.report.findings.iter().filter_map(of).collect()
+}
+
+/// The warning of a rate that may be in several `units`, read in the standard one, with a hint where in one of them alone the rate at rest is what Earth's may be
+/// and no bias is: a bias in another unit may be as large, so the hint decides nothing.
+fn doubted_rate(units: &[String], case: &RecordCase) -> Option<Note> {
+    let read = case.number(RATE).map(|number| case.report.channels[number].median)?;
+    let median = |name: &String| case.rate_units.iter().find(|other| other.name == *name).map(|other| other.scale * read);
+    let medians: Vec<(&String, f64)> = units.iter().filter_map(|name| Some((name, median(name)?))).collect();
+    let is_earths = |(_, median): &&(&String, f64)| (OFFSET_DEG_PER_H..=EARTH_DEG_PER_H).contains(&median.abs());
+    let hint = match medians.iter().filter(is_earths).collect::<Vec<_>>()[..] {
+        [(name, median)] => {
+            format!("; in {name} alone its median, {median:.2} deg/h, may be Earth's rate, if that was not taken off")
+        }
+        _ => String::new(),
+    };
+    let (taken, others) = units.split_first()?;
+    let others = others.join(" or ");
+    Some(Remark::Unit.warning(format!(
+        "no unit of the rate is told, and its values may be in {taken} or {others}: the map takes {taken}{hint}; see which it is, and write it into the map"
+    )))
 }
 
 /// The map that a table suggests.

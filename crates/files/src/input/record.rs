@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use recording::check::{Report, Severity, check};
+use recording::check::{Report, Severity, Unit, check};
 use recording::{Channel, Recording, Sampling, Seconds};
 
 use super::InputError;
@@ -21,6 +21,7 @@ use super::timestamp;
 use crate::Error;
 use crate::note::Note;
 use crate::remark::Remark;
+use crate::shown::shown_path;
 
 /// Most rows: what fits in a gigabyte with its checks.
 const MOST_ROWS: usize = 10_000_000;
@@ -34,6 +35,8 @@ pub struct RecordCase {
     pub ignored: Recording,
     /// The result: rows to keep, values to use.
     pub report: Report,
+    /// Other units in which the rate may be, those that are rare last: conversion from the rate as it was read; none of counts.
+    pub rate_units: Vec<Unit>,
     /// Seconds over which a rate is a mean.
     pub averaging: f64,
     /// The meta file, if there is one.
@@ -95,9 +98,21 @@ pub(super) fn read_as(path: &Path, format: &RecordFormat, options: &RecordOption
     let flags = [("--map", &options.map), ("--meta", &options.meta)];
     let flags = flags.into_iter().filter_map(|(flag, file)| Some((flag, file.clone()?))).collect();
     let case = checked(Rows::open(path, "a recording (*.csv)", format.dialect)?, format, meta);
+    // the line of names, and what stands above it, is as the map says, or is not
+    let names = format.dialect.preamble as usize + 1;
     case.map(|case| RecordCase { flags, ..case }).map_err(|error| match error {
-        Error::Input(wrong) if wrong.problem == NOT_UTF8 => {
-            let remedy = format!("{}, or let `fogcoil check RECORD --write-map` find how it is encoded", wrong.remedy);
+        Error::Input(wrong) => {
+            let mut remedy = wrong.remedy.clone();
+            if wrong.problem == NOT_UTF8 {
+                remedy += ", or let `fogcoil check RECORD --write-map` find how it is encoded";
+            }
+            let is_of_form = wrong.problem == NOT_UTF8 || wrong.line.is_some_and(|line| line <= names);
+            if let Some(map) = options.map.as_deref().filter(|_| is_of_form && wrong.file == path) {
+                remedy += &format!(
+                    " (read by --map {}, which stands for every record; a map beside each record, NAME.map.ron, is for it alone)",
+                    shown_path(map)
+                );
+            }
             InputError { remedy, ..wrong }.into()
         }
         other => other,
@@ -135,7 +150,8 @@ fn checked(mut rows: Rows, format: &RecordFormat, meta: Option<(PathBuf, Meta)>)
     notes.extend(unread);
     notes.extend(meta.as_ref().and_then(|meta| interval_note(meta, interval)));
     let (flags, fingerprint) = (Vec::new(), rows.fingerprint());
-    Ok(RecordCase { recording, ignored, report, averaging, meta, notes, lines, flags, fingerprint })
+    let rate_units = format.column(Key::Rate).other_units(Key::Rate);
+    Ok(RecordCase { recording, ignored, report, rate_units, averaging, meta, notes, lines, flags, fingerprint })
 }
 
 /// The meta file of a recording that lasts `span` \[s\], unless a rate would be a mean over more.

@@ -14,7 +14,7 @@ const TEMPERATURE_C: [f64; 2] = [-100.0, 200.0];
 /// Temperatures \[°C\] that a sensor on a coil can tell: from absolute zero to where polyimide, the most resistant polymer on a fibre, decomposes.
 const POSSIBLE_C: [f64; 2] = [ABSOLUTE_ZERO_C, 400.0];
 /// The Earth's rate \[deg/h\] with two parts in a thousand (IERS Conventions 2010: 7.292115e-5 rad/s).
-const EARTH_DEG_PER_H: f64 = 15.041 * 1.002;
+pub(super) const EARTH_DEG_PER_H: f64 = 15.041 * 1.002;
 /// Range of rates at rest \[deg/h\]: a hundred times the Earth's, far beyond an optical gyro's bias.
 const RATE_DEG_PER_H: [f64; 2] = [-100.0 * EARTH_DEG_PER_H, 100.0 * EARTH_DEG_PER_H];
 /// Rates \[deg/h\] that a gyro can tell: some thousand degrees a second.
@@ -24,7 +24,7 @@ const NOISE_DEG_PER_H: [f64; 2] = [2e-5, 3600.0];
 /// Rates that never reach this \[deg/h\] would, in deg/s, never reach the Earth's.
 const SMALL_DEG_PER_H: f64 = EARTH_DEG_PER_H / 3600.0;
 /// A constant offset above this is no bias of the gyros that this program is for \[deg/h\].
-const OFFSET_DEG_PER_H: f64 = 0.5;
+pub(super) const OFFSET_DEG_PER_H: f64 = 0.5;
 /// The fastest change of a chamber's air \[degC/s\], 30 degC a minute: twice the fastest rate of IEC 60068-2-14, test Nb (15 K/min). In a
 /// faster change, as in a test by thermal shock, the bias does not follow a model that starts at rest.
 const FASTEST_C_PER_S: f64 = 0.5;

@@ -160,9 +160,18 @@ impl ColumnFormat {
         self.unit.scale * self.count * value + self.unit.offset
     }
 
-    /// The key's other units, in which the column may be: conversion from the value read as standard to the value in that unit.
+    /// The key's other units that are not rare, in which the column may be: conversion from the value read as standard to the value in that unit.
     pub(super) fn mistaken(&self, key: Key) -> Vec<Unit> {
-        let others = key.units().iter().filter(|unit| **unit != self.unit && !unit.is_rare);
+        self.others(key, false)
+    }
+
+    /// All other units of the key likewise, the rare ones last; none of a column of counts.
+    pub(super) fn other_units(&self, key: Key) -> Vec<Unit> {
+        if self.count == 1.0 { [self.others(key, false), self.others(key, true)].concat() } else { Vec::new() }
+    }
+
+    fn others(&self, key: Key, rare: bool) -> Vec<Unit> {
+        let others = key.units().iter().filter(|unit| **unit != self.unit && unit.is_rare == rare);
         let of = |unit: &ColumnUnit| {
             let scale = unit.scale / self.unit.scale;
             Unit { name: unit.names[0].into(), scale, offset: unit.offset - scale * self.unit.offset }

@@ -9,8 +9,10 @@ use super::InputError;
 use super::fingerprint::Fingerprint;
 use super::profile::{Wanted, read_rows};
 use super::profile_columns::{DRIVES, RESULTS, names};
-use super::record_options::TIME;
+use super::record::read_record;
+use super::record_options::{RecordOptions, TIME};
 use super::rows::{Dialect, Rows, quoted};
+use crate::Error;
 use crate::note::Note;
 use crate::remark::Remark;
 
@@ -35,11 +37,40 @@ pub struct SpoolCase {
     pub fingerprint: Fingerprint,
 }
 
-/// Reads and checks a record. Other columns that profiles and recordings have may stand in it and are not read.
+/// Reads and checks a record: as a recording ([`super::read_record`]) where a map file says how it is read, given or beside it; else `time_s,spool_c`, in which
+/// other columns that profiles and recordings have may stand and are not read.
 ///
 /// # Errors
 /// The fault, in which file, line and column, and how to mend it.
-pub fn read_spool(path: &Path, design: &Design) -> Result<SpoolCase, InputError> {
+pub fn read_spool(path: &Path, options: &RecordOptions, design: &Design) -> Result<SpoolCase, Error> {
+    if options.map_of(path).is_none() {
+        return Ok(read_standard(path, design)?);
+    }
+    let record = read_record(path, options)?;
+    record.require_usable()?;
+    let used = record.report.used(&record.recording);
+    let readings = used.channel(SPOOL).map_or(&[][..], |channel| &channel.values);
+    let (time, spool): (Vec<f64>, Vec<f64>) = used.time().iter().zip(readings).filter(|(_, reading)| reading.is_finite()).unzip();
+    if time.len() < FEWEST_ROWS {
+        return Err(too_few(path, time.len(), "rows with a reading of the spool's thermometer").into());
+    }
+    let mut notes = record.notes;
+    notes.extend(gap(&time).map(|gap| Remark::Gap.note(gap).at(path)));
+    Ok(SpoolCase { drives: drives(design), time, spool, notes, fingerprint: record.fingerprint })
+}
+
+/// The drives of a design whose chamber is inferred.
+fn drives(design: &Design) -> Vec<Drive> {
+    if design.heat.heaters.is_empty() { vec![Drive::Chamber] } else { vec![Drive::Chamber, Drive::Heaters] }
+}
+
+fn too_few(path: &Path, count: usize, rows: &str) -> InputError {
+    let problem = format!("has {count} {rows}, too few to infer the chamber from");
+    InputError::whole(path, problem, format!("give {FEWEST_ROWS} or more"))
+}
+
+/// Reads a record in the standard columns.
+fn read_standard(path: &Path, design: &Design) -> Result<SpoolCase, InputError> {
     let mut rows = Rows::open(path, "a record (*.csv)", Dialect::STANDARD)?;
     rows.header("time_s,spool_c")?;
     let names = columns(&rows)?;
@@ -55,8 +86,7 @@ pub fn read_spool(path: &Path, design: &Design) -> Result<SpoolCase, InputError>
     )?;
     let spool = courses.pop().unwrap_or_default();
     if time.len() < FEWEST_ROWS {
-        let problem = format!("has {} rows below its header, too few to infer the chamber from", time.len());
-        return Err(rows.whole_fault(&problem, format!("give {FEWEST_ROWS} or more")));
+        return Err(too_few(path, time.len(), "rows below its header"));
     }
     let mut notes = Vec::new();
     let ignored: Vec<&str> = names.iter().map(String::as_str).filter(|name| ![TIME, SPOOL].contains(name)).collect();
@@ -65,8 +95,7 @@ pub fn read_spool(path: &Path, design: &Design) -> Result<SpoolCase, InputError>
         notes.push(Remark::IgnoredColumn.note(message).at(path));
     }
     notes.extend(gap(&time).map(|gap| Remark::Gap.note(gap).at(path)));
-    let drives = if design.heat.heaters.is_empty() { vec![Drive::Chamber] } else { vec![Drive::Chamber, Drive::Heaters] };
-    Ok(SpoolCase { drives, time, spool, notes, fingerprint: rows.fingerprint() })
+    Ok(SpoolCase { drives: drives(design), time, spool, notes, fingerprint: rows.fingerprint() })
 }
 
 /// The names of the columns, all known and none twice.

@@ -183,9 +183,10 @@ fn key(number: Number, design: &Design) -> Option<(&'static str, f64)> {
     Some((key, unit / ratio))
 }
 
-/// Tolerances as a file has them.
+/// Tolerances as a file has them, of the numbers that the design has: of others a file is refused.
 pub(super) fn written(tolerances: &Tolerances, design: &Design) -> TolerancesFile {
     let of = |(number, tolerance): &(Number, Tolerance)| {
+        number.of(design)?;
         let (key, unit) = key(*number, design)?;
         let tolerance = match tolerance {
             Tolerance::Relative(share) => ToleranceFile::Relative(*share),
@@ -197,9 +198,9 @@ pub(super) fn written(tolerances: &Tolerances, design: &Design) -> TolerancesFil
     tolerances.given.iter().filter_map(of).collect()
 }
 
-/// Correlations as a file has them.
-pub(super) fn correlated(tolerances: &Tolerances) -> Vec<CorrelationFile> {
-    let name = |number: Number| KEYS.iter().find(|(_, known, _)| *known == number).map(|(key, ..)| (*key).to_owned());
+/// Correlations as a file has them, of the numbers that the design has.
+pub(super) fn correlated(tolerances: &Tolerances, design: &Design) -> Vec<CorrelationFile> {
+    let name = |number: Number| key(number, design).filter(|_| number.of(design).is_some()).map(|(key, _)| key.to_owned());
     tolerances.correlations.iter().filter_map(|(a, b, r)| Some((name(*a)?, name(*b)?, *r))).collect()
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use files::Remark;
 use progress::Step;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -11,7 +12,7 @@ use crate::Error;
 use crate::cache::Cache;
 use crate::diagnose::{diagnose, of_columns};
 use crate::input::{Asked, CoilCase, RecordCase, RecordOptions, hexadecimal, read_record};
-use crate::measure::{self, Measurement, Prediction, measure};
+use crate::measure::{self, Measurement, Prediction, Told, measure};
 
 /// Inputs that all units share.
 pub struct Inputs<'a> {
@@ -104,19 +105,63 @@ impl Inputs<'_> {
     /// The figures of the unit: one that was held out of the fit is measured as well.
     fn measured(&self, unit: &Read) -> Value {
         let all: Vec<Measurement> = unit.fits.iter().chain(&unit.holdouts).filter_map(|record| measure(record).ok()).collect();
-        of_unit(&all).map_or(Value::Null, |figures| measure::json(&figures, Some(self.prediction)))
+        of_unit(&all).map_or(Value::Null, |mut figures| {
+            let doubt = self.prediction.other_unit(&figures);
+            figures.notes.splice(0..0, doubt);
+            measure::json(&figures, Some(self.prediction))
+        })
     }
 }
 
-/// The figures of the record that tells the sensitivity best, of the first where none tells it; the peak is the largest of all records, so that units
-/// whose records tell the sensitivity equally well are compared at the same turn of the programme.
+/// Each figure of the record that tells it best: of the narrowest interval. The peak is the largest of all records, so that units whose records tell the
+/// sensitivity equally well are compared at the same turn of the programme; the bias over temperature is one of the records that cover about the widest range,
+/// and an upper bound of the bias instability gives way to a floor. What else is told is of the record that tells the sensitivity best, of the first where none
+/// tells it.
 fn of_unit(all: &[Measurement]) -> Option<Measurement> {
-    let width = |m: &Measurement| m.sensitivity.as_ref().map_or(f64::INFINITY, |f| f.ci90[1] - f.ci90[0]);
-    let best = all.iter().min_by(|a, b| width(a).total_cmp(&width(b)))?;
+    let best = |of: fn(&Measurement) -> &Told| best_of(all.iter(), of);
+    let sensitivity = best(|m| &m.sensitivity)?;
     let size = |m: &Measurement| m.peak.as_ref().map_or(0.0, |peak| peak.value.abs());
-    let highest = all.iter().fold(best, |highest, m| if size(m) > size(highest) { m } else { highest });
+    let highest = all.iter().fold(sensitivity, |highest, m| if size(m) > size(highest) { m } else { highest });
     let (peak, peak_time, peak_under) = (highest.peak.clone(), highest.peak_time, highest.peak_under);
-    Some(Measurement { peak, peak_time, peak_under, ..best.clone() })
+    let widest = all.iter().filter_map(|m| m.span_range).fold(0.0, f64::max);
+    let wide = all.iter().filter(|m| m.span_range.is_some_and(|range| range >= WIDE * widest));
+    let span = best_of(wide, |m| &m.bias_span).unwrap_or(sensitivity);
+    let floors = all.iter().filter(|m| !m.floor_is_bound && m.bias_instability.is_ok());
+    let floor = best_of(floors, |m| &m.bias_instability).or_else(|| best(|m| &m.bias_instability))?;
+    let mut unit = Measurement {
+        heating: best(|m| &m.heating)?.heating.clone(),
+        cooling: best(|m| &m.cooling)?.cooling.clone(),
+        asymmetry: best(|m| &m.asymmetry)?.asymmetry.clone(),
+        hysteresis: best(|m| &m.hysteresis)?.hysteresis.clone(),
+        bias_span: span.bias_span.clone(),
+        span_range: span.span_range,
+        peak,
+        peak_time,
+        peak_under,
+        arw: best(|m| &m.arw)?.arw.clone(),
+        bias_instability: floor.bias_instability.clone(),
+        floor_time: floor.floor_time,
+        floor_is_bound: floor.floor_is_bound,
+        ..sensitivity.clone()
+    };
+    unit.notes.retain(|note| note.remark != Remark::NotMeasured);
+    unit.notes.extend(unit.not_measured());
+    Some(unit)
+}
+
+/// Share of the widest range of temperatures from which a record's bias over temperature may be that of the unit: over less, a parabola makes about half of it.
+const WIDE: f64 = 0.75;
+
+/// The record that tells a figure best: by the narrowest interval, else by its value alone; the first of equals.
+fn best_of<'a>(all: impl Iterator<Item = &'a Measurement>, of: fn(&Measurement) -> &Told) -> Option<&'a Measurement> {
+    let rank = |m: &Measurement| match of(m) {
+        Ok(figure) => (0, figure.ci90[1] - figure.ci90[0]),
+        Err(untold) => (if untold.value.is_some() { 1 } else { 2 }, 0.0),
+    };
+    all.min_by(|a, b| {
+        let ((a, of_a), (b, of_b)) = (rank(a), rank(b));
+        a.cmp(&b).then(of_a.total_cmp(&of_b))
+    })
 }
 
 /// The page of a unit, which is that of a diagnosis of the design, under the unit's name.
@@ -158,6 +203,42 @@ mod tests {
         let unit = of_unit(&[fast, slow, none.clone()]).unwrap();
         assert_eq!(unit.sensitivity.unwrap().ci90, none.sensitivity.clone().unwrap().ci90);
         assert!(peak(&[none]) == Some((None, None)) && of_unit(&[]).is_none());
+    }
+
+    #[test]
+    fn each_figure_of_a_unit_is_that_of_the_record_that_tells_it_best() {
+        let rows: String = (0..40).map(|n| format!("{},20,20,{}\n", 30 * n, n * n % 7)).collect();
+        let record =
+            check_record(Path::new("r.csv"), "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &rows, None, &[]).unwrap();
+        let measured = measure(&record).unwrap();
+        let told = |value: f64, sd: f64| Ok(Figure { value, ci90: [value - sd, value + sd] });
+        let of = |sensitivity: f64, span: f64, range: f64| Measurement {
+            sensitivity: told(-2.8, sensitivity),
+            bias_span: told(0.05, span),
+            span_range: Some(range),
+            ..measured.clone()
+        };
+        let [ramps, rests, narrow] = [of(0.1, 0.05, 100.0), of(0.2, 0.01, 95.0), of(0.3, 0.001, 40.0)];
+        for all in [[ramps.clone(), rests.clone(), narrow.clone()], [narrow.clone(), rests.clone(), ramps.clone()]] {
+            let unit = of_unit(&all).unwrap();
+            assert_eq!((&unit.sensitivity, &unit.bias_span), (&ramps.sensitivity, &rests.bias_span));
+        }
+        // what another record tells is told, and no note says that it is not
+        let why = || Err("it moved".to_owned().into());
+        let [untold, floor] = [
+            Measurement {
+                bias_span: why(),
+                hysteresis: why(),
+                bias_instability: told(0.001, 1e-4),
+                floor_is_bound: true,
+                ..ramps
+            },
+            Measurement { hysteresis: told(0.1, 0.01), bias_instability: told(0.002, 5e-4), floor_is_bound: false, ..rests },
+        ];
+        let unit = of_unit(&[untold, floor.clone()]).unwrap();
+        assert_eq!((&unit.bias_span, &unit.hysteresis), (&floor.bias_span, &floor.hysteresis));
+        assert!(unit.bias_instability == floor.bias_instability && !unit.floor_is_bound);
+        assert!(!unit.notes.iter().any(|note| note.to_string().contains("bias_span") || note.to_string().contains("hysteresis")));
     }
 
     #[test]

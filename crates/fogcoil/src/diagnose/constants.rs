@@ -1,6 +1,6 @@
 //! Constants of the design and the instruments by the records, beside their prior values.
 
-use diagnosis::{Fit, Hypothesis, Place, Posterior, Role};
+use diagnosis::{Fit, Hypothesis, Place, Posterior, Role, Verdict};
 use files::{Note, Remark};
 use mechanisms::reading_of;
 use serde_json::{Value, json};
@@ -76,17 +76,14 @@ impl Outcome<'_> {
     pub(super) fn late(&self) -> Option<String> {
         let delay = self.constants().into_iter().find(|c| c.posterior.name == RATE_DELAY)?;
         let sure = delay.posterior.u.abs() > FAR * delay.posterior.sd && delay.moved().abs() > WORTH;
-        let [value, low, high] = ends(&delay.posterior);
-        let how = if value > 0.0 { "late" } else { "early" };
-        let [low, high] = if value > 0.0 { [low, high] } else { [-high, -low] };
-        sure.then(|| {
-            format!(
-                "The rate is read {} s {how} (90 %: {} to {}), beside the temperatures: compare how the loggers stamp their rows.",
-                significant(value.abs(), 2),
-                significant(low, 2),
-                significant(high, 2)
-            )
-        })
+        sure.then(|| delayed(ends(&delay.posterior), self.is_incomplete()))
+    }
+
+    /// Whether the instruments' numbers may only make up for what is unexplained: the verdict is unknown, or something without a name takes part more probably than
+    /// not. A law that was composed predicts, and its form is no cause.
+    pub(super) fn is_incomplete(&self) -> bool {
+        let [.., unknown] = self.diagnosis.verdicts();
+        self.diagnosis.verdict == Verdict::Unknown || unknown > 0.5
     }
 
     /// A warning for each instrument that the answer takes to be far off.
@@ -95,10 +92,11 @@ impl Outcome<'_> {
         let said = |c: &Constant| {
             let [value, low, high] = ends(&c.posterior).map(|value| significant(value, 4));
             let sigmas = significant(c.moved().abs(), 2);
-            Remark::InstrumentOff.warning(format!(
-                "the answer takes the {} to be {value} (90 % interval {low} to {high}), {sigmas} standard deviations off what is known of it: check the instrument",
+            let off = format!(
+                "the answer takes the {} to be {value} (90 % interval {low} to {high}), {sigmas} standard deviations off what is known of it",
                 c.posterior.name
-            ))
+            );
+            Remark::InstrumentOff.warning(format!("{off}: {}", advised("check the instrument", self.is_incomplete())))
         };
         self.moved().iter().filter(far).map(said).collect()
     }
@@ -128,13 +126,32 @@ impl Outcome<'_> {
         worth(&all, "design", |p| interval_by_key(self.gyro.library().design(), told.clone(), &p.name, ends(p)))
     }
 
-    /// Numbers of the instruments likewise.
+    /// Numbers of the instruments likewise, each with whether it is qualified: it may only make up for what is unexplained.
     pub(super) fn sensors_json(&self) -> Value {
-        worth(&self.constants(), "instrument", |p| {
+        let mut sensors = worth(&self.constants(), "instrument", |p| {
             let [value, low, high] = ends(p);
             Some((reading_of(&p.name)?, value, [low, high]))
-        })
+        });
+        for sensor in sensors.as_array_mut().into_iter().flatten() {
+            sensor["qualified"] = self.is_incomplete().into();
+        }
+        sensors
     }
+}
+
+/// What is to be done about an instrument by an answer; by one of an `incomplete` model, that it may be in vain.
+fn advised(advice: &str, incomplete: bool) -> String {
+    let doubt =
+        if incomplete { "as far as an incomplete model tells; it may only make up for what is unexplained. Else " } else { "" };
+    format!("{doubt}{advice}")
+}
+
+/// The sentence on a delay of the rate, with the ends of its interval \[s\].
+fn delayed([value, low, high]: [f64; 3], incomplete: bool) -> String {
+    let (how, [low, high]) = if value > 0.0 { ("late", [low, high]) } else { ("early", [-high, -low]) };
+    let [value, low, high] = [value.abs(), low, high].map(|seconds| significant(seconds, 2));
+    let advice = advised("compare how the loggers stamp their rows", incomplete);
+    format!("The rate is read {value} s {how} (90 %: {low} to {high}), beside the temperatures: {advice}.")
 }
 
 fn ends(posterior: &Posterior) -> [f64; 3] {
@@ -161,6 +178,16 @@ mod tests {
     use diagnosis::Prior;
 
     use super::*;
+
+    #[test]
+    fn what_an_incomplete_model_tells_of_an_instrument_is_qualified() {
+        let [plain, incomplete] = [false, true].map(|incomplete| delayed([37.0, 23.0, 51.0], incomplete));
+        let said = "The rate is read 37 s late (90 %: 23 to 51), beside the temperatures: ";
+        assert_eq!(plain, said.to_owned() + "compare how the loggers stamp their rows.");
+        let doubt = "as far as an incomplete model tells; it may only make up for what is unexplained. Else compare how the loggers stamp their rows.";
+        assert_eq!(incomplete, said.to_owned() + doubt);
+        assert!(delayed([-2.0, -3.0, -1.0], false).starts_with("The rate is read 2.0 s early (90 %: 1.0 to 3.0)"));
+    }
 
     /// A delay of 14 s of which ±16 s was known is worth a word if the records tell it to a second, and none if they say as little as before.
     #[test]

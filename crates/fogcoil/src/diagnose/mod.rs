@@ -201,7 +201,9 @@ pub fn diagnose<'m>(
         notes.extend(columns::warning(&drawn, number, record, explains.then_some(answered.as_slice())).map_err(coil)?);
     }
     let mut other_drawing = None;
-    if diagnosis.verdict != Verdict::None {
+    // no word of a drawing makes tens of the rate
+    let is_unit = notes.iter().any(|note| note.remark == Remark::RateUnit);
+    if diagnosis.verdict != Verdict::None && !is_unit {
         progress(Step::begins("drawings that differ in one word"));
         let of_rate: Vec<f64> = answered[..read.len()].iter().map(|answered| answered[RATE_CHANNEL]).collect();
         let of_rate = explains_fitted.then_some(of_rate.as_slice());

@@ -154,6 +154,7 @@ impl Outcome<'_> {
                     Remark::LooseThermometer => "the spool's thermometer came loose",
                     Remark::ChamberJump => "the chamber's readings jumped and not the air",
                     Remark::ReversedRate => "the rate has the other sign",
+                    Remark::RateUnit => "the rate is in another unit",
                     _ => "a column is read wrongly",
                 };
                 format!("Void if {mistake}, as it seems. As it is read: {}", self.verdict_as_read())
@@ -172,7 +173,7 @@ impl Outcome<'_> {
         }
     }
 
-    /// The warning that a record seems to have columns exchanged, a loose thermometer, a chamber whose readings jumped or its rate negated, if there is one.
+    /// The warning that a record seems to have columns exchanged, a loose thermometer, a chamber whose readings jumped or its rate negated or in another unit, if there is one.
     pub(super) fn misread(&self) -> Option<&Note> {
         self.notes.iter().find(|note| note.remark.voids())
     }

@@ -12,6 +12,7 @@ mod text;
 
 use bias::units::S_PER_MIN;
 use files::{Note, Remark};
+use recording::check::Unit;
 use recording::condition::{Thinned, Thinning, bridged, thinned};
 use recording::ramp::{Absent, Estimate, Input, Response, respond};
 use recording::{Recording, Seconds};
@@ -48,6 +49,8 @@ pub struct Measurement {
     pub hysteresis: Told,
     /// Largest less least bias at rest over the record's range of temperatures \[deg/h\].
     pub bias_span: Told,
+    /// Range of the temperature over which it is \[K\], if there is one.
+    pub span_range: Option<f64>,
     /// Bias by temperature where it is largest, relative to the first row \[deg/h\].
     pub peak: Told,
     /// The instant of the peak \[s\].
@@ -62,6 +65,8 @@ pub struct Measurement {
     pub floor_time: Option<f64>,
     /// Whether the floor is an upper bound, as the temperature changed.
     pub floor_is_bound: bool,
+    /// Other units in which the rate may be, those that are rare last: conversion from the rate as it was read.
+    pub rate_units: Vec<Unit>,
     /// Further remarks for the user, with the reason for each number that is not told.
     pub notes: Vec<Note>,
 }
@@ -96,6 +101,7 @@ pub fn measure(case: &RecordCase) -> Result<Measurement, InputError> {
         asymmetry: per_minute(|r| &r.asymmetry),
         hysteresis: plain(|r| &r.hysteresis),
         bias_span: plain(|r| &r.span).map(|Figure { value, ci90: [low, high] }| Figure { value, ci90: [low.max(0.0), high] }),
+        span_range: drive.as_ref().map(|drive| drive.range),
         peak: peak.clone().map(|(figure, _)| figure),
         peak_time: peak.ok().map(|(_, time)| time),
         peak_under: drive.and_then(|drive| drive.programme),
@@ -103,15 +109,11 @@ pub fn measure(case: &RecordCase) -> Result<Measurement, InputError> {
         bias_instability: noise.floor,
         floor_time: noise.floor_time,
         floor_is_bound: analysis.noise.as_ref().is_some_and(|noise| noise.is_bound),
+        rate_units: case.rate_units.clone(),
         notes,
     };
     measured.notes.extend(one_temperature(&measured).map(|note| note.at(file)));
-    let missing = measured
-        .figures()
-        .into_iter()
-        .filter_map(|(key, _, told)| told.as_ref().err().map(|untold| format!("{key}: {}", untold.why)));
-    let missing: Vec<Note> = missing.map(|text| Remark::NotMeasured.note(text).at(file)).collect();
-    measured.notes.extend(missing);
+    measured.notes.extend(measured.not_measured());
     Ok(measured)
 }
 
@@ -126,6 +128,13 @@ fn one_temperature(measured: &Measurement) -> Option<Note> {
 }
 
 impl Measurement {
+    /// A note on each figure that is not told.
+    pub(crate) fn not_measured(&self) -> Vec<Note> {
+        let why = |(key, _, told): (&str, &str, &Told)| told.as_ref().err().map(|untold| format!("{key}: {}", untold.why));
+        let missing = self.figures().into_iter().filter_map(why);
+        missing.map(|text| Remark::NotMeasured.note(text).at(&self.fingerprint.file)).collect()
+    }
+
     /// Whether the number of a key is an upper bound.
     pub(super) fn is_bound(&self, key: &str) -> bool {
         key == "bias_instability" && self.floor_is_bound
@@ -168,10 +177,11 @@ fn programme(time: &[f64], drive: &[f64]) -> Option<[f64; 2]> {
     Some([time[time.len() - 1] - time[0], fastest])
 }
 
-/// Names of the temperature whose rate counts and of the one over which a bias at rest is sought, and the [`programme`] of the first.
+/// Names of the temperature whose rate counts and of the one over which a bias at rest is sought, the [`programme`] of the first and the range of the second \[K\].
 struct Drive {
     names: [&'static str; 2],
     programme: Option<[f64; 2]>,
+    range: f64,
 }
 
 /// Response of the rate to the temperatures, with these.
@@ -208,6 +218,7 @@ fn response(case: &RecordCase) -> (Option<Drive>, Result<Response, String>) {
         interval: interval * every,
         averaging: case.averaging * every,
     });
-    let drive = Drive { names: [driver, seated], programme: programme(used.time(), &drive) };
+    let [least, most] = seat.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| [low.min(*t), high.max(*t)]);
+    let drive = Drive { names: [driver, seated], programme: programme(used.time(), &drive), range: most - least };
     (Some(drive), answered.map_err(|absent| absent.to_string()))
 }

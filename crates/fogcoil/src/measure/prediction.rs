@@ -1,9 +1,13 @@
 //! The design's own sensitivity beside the measured one.
 
 use coil::{Band, SteadySensitivity};
+use files::{Note, Remark};
 use recording::statistics::normal_quantile;
 
 use super::{Figure, Measurement};
+use crate::input::RATE;
+use crate::rate_unit::{how_far, suspected};
+use crate::table::significant;
 
 /// Prediction of a design.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,4 +33,24 @@ impl Prediction {
         let sd = (high - low) / (2.0 * normal_quantile(0.95));
         Some((value - self.sensitivity.value) / sd.hypot(self.sd))
     }
+
+    /// The warning that a sensitivity which is not the predicted one is, in another unit of the rate.
+    pub fn other_unit(&self, measured: &Measurement) -> Option<Note> {
+        let Figure { value, ci90: [low, high] } = *measured.sensitivity.as_ref().ok()?;
+        let sd = (high - low) / (2.0 * normal_quantile(0.95));
+        let off = |scale: f64| (scale * value - self.sensitivity.value).abs() / (scale * sd).hypot(self.sd);
+        // neither is told from none, of which any unit makes the other
+        let is_told = value.abs() > MOST * sd && self.sensitivity.value.abs() > MOST * self.sd;
+        let unit = suspected(&measured.rate_units, |scale| off(scale) < MOST).filter(|_| is_told && off(1.0) > MOST)?;
+        let (name, how) = (&unit.name, how_far(unit.scale));
+        let text = format!(
+            "{RATE} seems to be in {name}: its sensitivity is {how} for {}, and in {name} {}; give --unit rate={name}, or unit in the map file",
+            self.design,
+            significant(unit.scale * value, 3)
+        );
+        Some(Remark::RateUnit.warning(text).at(&measured.fingerprint.file))
+    }
 }
+
+/// Standard deviations from which a measured sensitivity is not the predicted one.
+const MOST: f64 = 3.0;

@@ -160,10 +160,18 @@ fn a_unit_that_was_not_said_is_proposed() {
     }
     let output = folder.run(&["check", "r.csv", "--write-map"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let warning = "warning: no unit of the rate is told, and its values may be in deg/s or rad/s or mrad/s: the map takes deg/s; in rad/s alone its median, 11.4";
+    let hint = " deg/h, may be Earth's rate, if that was not taken off; see which it is, and write it into the map [unit]";
+    assert!(stdout(&output).contains(warning) && stdout(&output).contains(hint), "{}", stdout(&output));
     let map = std::fs::read_to_string(folder.path("r.map.ron")).unwrap();
     let says = "    rate: (unit: \"deg/s\"), // the values are not of the size of deg/h: taken as deg/s, or rad/s, or mrad/s\n";
     assert!(map.contains(says), "{map}");
     assert_eq!(folder.run(&["check", "r.csv"]).status.code(), Some(0));
+    // a rate that is no Earth's in any of them has no hint
+    let folder = Folder::new();
+    folder.write("r.csv", record(|_, [c, s, r]| [format!("{c:.2}"), format!("{s:.2}"), format!("{:e}", (r + 500.0) / 3600.0)]));
+    let said = stdout(&folder.run(&["check", "r.csv", "--write-map"]));
+    assert!(!said.contains("may be Earth's rate, if"), "{said}");
     // so is a temperature's
     let kelvin = |row: [f64; 3]| written([row[0] + 273.15, row[1], row[2]]);
     let folder = Folder::new();

@@ -213,6 +213,30 @@ fn a_rate_of_the_other_sign_is_no_compensation() {
     assert!(said.contains("[reversed-rate]") && said.contains("\nVoid if the rate has the other sign, as it seems."), "{said}");
 }
 
+/// A rate in rad/s that is read in deg/s is one of a sixtieth: the mistake comes before faults and before the drawing.
+#[test]
+#[ignore = "minutes"]
+fn a_rate_in_another_unit_is_no_fault() {
+    let folder = Folder::new();
+    logged(&folder, &under_ramps(&folder), 1.0);
+    let text = std::fs::read_to_string(folder.path("r.csv")).unwrap();
+    let (head, rows) = text.split_once('\n').unwrap();
+    let per = 3600.0 * 180.0 / std::f64::consts::PI;
+    let in_rad_per_s = |row: &str| {
+        let (rest, rate) = row.rsplit_once(',').unwrap();
+        format!("{rest},{:e}\n", rate.parse::<f64>().unwrap() / per)
+    };
+    folder.write("r.csv", format!("{head}\n") + &rows.lines().map(in_rad_per_s).collect::<String>());
+    let output = folder.run(&["diagnose", "coil.ron", "--fit", "r.csv", "--unit", "rate=deg/s"]);
+    let said = stdout(&output);
+    assert!(said.contains("rate_deg_per_h seems to be in rad/s: as it is read it is 57.3 times too small"), "{said}");
+    assert!(
+        said.contains("\nVoid if the rate is in another unit, as it seems.") && !said.contains("[doubted-drawing]"),
+        "{said}"
+    );
+    assert!(said.contains("Next: Say the unit: "), "{said}");
+}
+
 /// A flange that the drawing has bonded and the unit has not: no mechanism is that, and others would be named.
 #[test]
 fn a_word_of_the_drawing_that_is_wrong_comes_before_faults() {

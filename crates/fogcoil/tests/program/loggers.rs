@@ -222,3 +222,31 @@ fn a_line_of_units_is_not_one_of_names() {
     assert!(code == Some(2) && said.contains("r.csv:2: time_s: `s` is not a number; if the line holds the units"), "{said}");
     assert_eq!(rows().len(), 200);
 }
+
+/// A map that was given stands for every record: where one is of another form, the message says whose map it is.
+#[test]
+fn a_map_for_every_record_is_named_where_one_does_not_fit() {
+    let folder = Folder::new();
+    folder.write("a.csv", "Zeit,Rate\n".to_owned() + &lines(|_, [t, _, _, r]| format!("{t},{r:.6}")));
+    folder.write("b.csv", "time_s,Rate\n".to_owned() + &lines(|_, [t, _, _, r]| format!("{t},{r:.6}")));
+    folder.write("c.csv", "Zeit;Rate\n".to_owned() + &lines(|_, [t, _, _, r]| format!("{t};{r:.6}")));
+    folder.write("d.csv", "Zeit,Rate\n0,x\n");
+    folder.write("m.ron", "(time: (column: \"Zeit\"), rate: (column: \"Rate\", unit: \"deg/h\"))");
+    let said = |record: &str| {
+        let output = folder.run(&["check", record, "--map", "m.ron"]);
+        (output.status.code(), stderr(&output))
+    };
+    let whose = " (read by --map m.ron, which stands for every record; a map beside each record, NAME.map.ron, is for it alone)";
+    assert_eq!(said("a.csv").0, Some(0));
+    for (record, problem) in
+        [("b.csv", "b.csv:1: Zeit: the column is missing"), ("c.csv", "c.csv:1: the fields seem to be separated")]
+    {
+        let (code, said) = said(record);
+        assert!(code == Some(2) && said.contains(problem) && said.contains(whose), "{said}");
+    }
+    // a row that is wrong is so by any map, and so is a map that was not given
+    assert!(!said("d.csv").1.contains("--map m.ron"));
+    std::fs::copy(folder.path("m.ron"), folder.path("b.map.ron")).unwrap();
+    let beside = stderr(&folder.run(&["check", "b.csv"]));
+    assert!(beside.contains("the column is missing") && !beside.contains("which stands for every record"), "{beside}");
+}

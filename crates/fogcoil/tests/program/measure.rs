@@ -113,16 +113,35 @@ fn the_steady_sensitivity_of_a_coil_is_measured_again() {
     // of a folder its recordings; one that cannot be used does not keep the others from being measured
     std::fs::create_dir(folder.path("lot")).unwrap();
     std::fs::copy(folder.path("r.csv"), folder.path("lot/r.csv")).unwrap();
-    folder.write("lot/bad.csv", "time_s,chamber_c\n0,20\n");
+    folder.write("lot/bad.csv", "time_s,chamber_c,spool_c\n0,20,20\n");
+    // a profile is no recording
+    folder.write("lot/r.profile.csv", "time_s,chamber_c\n0,20\n600,30\n");
     let output = folder.run(&["measure", "lot", "--json"]);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert!(stderr(&output).contains("1 of 2 recordings cannot be used"), "{}", stderr(&output));
+    assert!(!stderr(&output).contains("r.profile.csv") || stderr(&output).contains("note: lot/r.profile.csv: not read"));
     let lot: Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(lot["records"][0]["file"], "lot/bad.csv");
     assert!(lot["records"][0]["problem"].as_str().unwrap().contains("rate_deg_per_h"), "{lot}");
     assert_eq!(lot["records"][1]["sensitivity"], found["sensitivity"]);
     let output = folder.run(&["measure", "lot", "--quiet"]);
     assert!(stdout(&output).contains("lot/bad.csv") && stdout(&output).contains("angle random walk"), "{}", stdout(&output));
+    // a rate in rad/s that is read in deg/s is 57.3 times too small for the design, and one in deg/s that is read so is not
+    let in_unit = |per: f64| -> String {
+        let text = std::fs::read_to_string(folder.path("r.csv")).unwrap();
+        let rows = text.lines().skip(1).map(|line| {
+            let (rest, rate) = line.rsplit_once(',').unwrap();
+            format!("{rest},{:e}\n", rate.parse::<f64>().unwrap() / per)
+        });
+        "time_s,chamber_c,spool_c,rate_deg_per_h\n".to_owned() + &rows.collect::<String>()
+    };
+    folder.write("rad.csv", in_unit(3600.0 * 180.0 / std::f64::consts::PI));
+    folder.write("deg.csv", in_unit(3600.0));
+    let [wrong, right, said] = [("rad.csv", "rate=deg/s"), ("deg.csv", "rate=deg/s"), ("rad.csv", "rate=rad/s")]
+        .map(|(record, unit)| stdout(&folder.run(&["measure", record, "coil.ron", "--unit", unit, "--quiet"])));
+    let warning = "warning: rad.csv: rate_deg_per_h seems to be in rad/s: its sensitivity is 57.3 times too small for ";
+    assert!(wrong.contains(warning) && wrong.contains("give --unit rate=rad/s") && wrong.contains("[rate-unit]"), "{wrong}");
+    assert!(!right.contains("[rate-unit]") && !said.contains("[rate-unit]"), "{right}{said}");
     // a line each, with the design's number once
     let table = stdout(&folder.run(&["measure", "r.csv", "lot/r.csv", "coil.ron"]));
     let [low, value, high] = interval(&found["sensitivity"]);

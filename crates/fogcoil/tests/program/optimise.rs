@@ -134,6 +134,13 @@ fn designs_without_a_part_are_tried_and_those_that_cannot_be_are_counted() {
     };
     let (json, table) = run(choices(""));
     assert!(json["failed"] == 0 && table.contains(",none,") && table.contains(",one,"), "{json} {table}");
+    // what is written is read, of a design that has no such part
+    assert_eq!(json["optimum"]["design"]["values"]["spool.flanges"], "none", "{json}");
+    let output = folder.run(&["optimise", "plan.ron", "--model-out", "m.ron", "--quiet"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(!fs::read_to_string(folder.path("m.ron")).unwrap().contains("flanges.thickness_mm"));
+    let output = folder.run(&["wind", "m.ron"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let (json, _) = run(choices(
         ", \"twice\": \"[(side: Right, thickness_mm: 2.0, overhang_mm: 1.0, bonded: true), (side: Right, thickness_mm: 2.0, overhang_mm: 1.0, bonded: true)]\"",
     ));

@@ -57,6 +57,40 @@ fn exact_a_thermometers_record_gives_the_chamber_and_the_bias_back() {
     }
 }
 
+/// A logger's file is read as --record reads it: by the map beside it, or the one that is given.
+#[test]
+fn a_loggers_file_gives_the_chamber_by_its_map() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let spool = |k: i32| 20.0 + 10.0 * ((f64::from(k) - 150.0) / 40.0).tanh() + f64::from(k % 3) * 0.01;
+    let rows = |row: &dyn Fn(i32) -> String| (0..300).map(|k| row(k) + "\n").collect::<String>();
+    folder.write("plain.csv", "time_s,spool_c\n".to_owned() + &rows(&|k| format!("{},{:.2}", 30 * k, spool(k))));
+    let german = |k: i32| format!("{};{:.2};0,{:04}", 30 * k, spool(k), (k * 7) % 13).replace('.', ",");
+    let text = "Spule [\u{b0}C] und mehr\nZeit [s];Spule [\u{b0}C];Drehrate [\u{b0}/h]\n".to_owned() + &rows(&german);
+    // cp1252
+    std::fs::write(folder.path("logger.csv"), text.chars().map(|c| c as u32 as u8).collect::<Vec<_>>()).unwrap();
+    let map = "(encoding: \"windows-1252\", preamble_lines: 1, separator: \";\", decimal_comma: true, time: (column: \"Zeit [s]\"), spool: (column: \"Spule [\u{b0}C]\"), rate: (column: \"Drehrate [\u{b0}/h]\"))";
+    let simulated = |arguments: &[&str], out: &str| {
+        let output = folder.run(&[&["simulate", "coil.ron", "--out", out, "--quiet", "--spool"], arguments].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        std::fs::read_to_string(folder.path(out)).unwrap()
+    };
+    let plain = simulated(&["plain.csv"], "a.csv");
+    folder.write("m.ron", map);
+    assert_eq!(simulated(&["logger.csv", "--map", "m.ron"], "b.csv"), plain);
+    folder.write("logger.map.ron", map);
+    assert_eq!(simulated(&["logger.csv"], "c.csv"), plain);
+    // a record of too few readings is refused all the same
+    folder.write(
+        "few.csv",
+        "time_s,spool_c,rate_deg_per_h\n".to_owned()
+            + &rows(&|k| format!("{},{},0.{}", 30 * k, if k < 5 { "20.1" } else { "" }, (k * 7) % 13)),
+    );
+    folder.write("few.map.ron", "()");
+    let output = folder.run(&["simulate", "coil.ron", "--spool", "few.csv", "--out", "d.csv"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
 #[test]
 fn what_looks_wrong_in_a_record_is_noted() {
     let folder = Folder::new();
