@@ -193,6 +193,12 @@ pub(crate) fn total(parts: &Parts) -> Vec<f64> {
 }
 
 impl Series {
+    /// As long, and nothing throughout.
+    pub(crate) fn nothing(&self) -> Self {
+        let nothing = vec![0.0; self.sensor.len()];
+        Self { parts: [0, 1, 2].map(|_| nothing.clone()), sensor: nothing }
+    }
+
     /// Adds a multiple of a change.
     pub(crate) fn change(&mut self, by: &Self, factor: f64) {
         self.parts.iter_mut().zip(&by.parts).for_each(|(part, change)| add(part, change, factor));

@@ -176,6 +176,27 @@ fn a_short_coil_s_tail_follows_the_chain() {
     agree("a short coil's tail", &responses, &exact, &nominal, &[RATE]);
 }
 
+/// Beside a longer tail a softer coil, or one whose winding ends elsewhere, adds what it adds without; what changes the temperatures changes both.
+#[test]
+fn constants_beside_a_tail_follow_the_chain() {
+    let design = design();
+    let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let tail = Active { mechanism: gyro.find("tail-asymmetry").expect("offered"), values: vec![0.4], choice: None };
+    let long = gyro.extended(&design, &tail).expect("a place");
+    let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let without = anew(&long);
+    let of_tail = rms(&minus(&without[RATE], &anew(&design)[RATE]));
+    for name in ["E_r and G", "end of the winding [mm]", "specific heat of the coil", "conductivity of the surroundings"] {
+        let place = gyro.nuisances().iter().position(|n| n.parameter.name == name).expect("a constant");
+        let mut u = middle.clone();
+        u[place] = gyro.nuisances()[place].parameter.prior.value(1.0);
+        let of = |u: &[f64]| gyro.respond(0, u, std::slice::from_ref(&tail)).expect("response").swap_remove(RATE);
+        let effect = minus(&anew(&with_constant(&long, name, u[place]).expect("a constant"))[RATE], &without[RATE]);
+        let off = rms(&minus(&minus(&of(&u), &of(&middle)), &effect));
+        assert!(off < 0.012 * of_tail && rms(&effect) > 0.02 * of_tail, "{name}: {off} of {of_tail}, {}", rms(&effect));
+    }
+}
+
 #[test]
 fn material_mechanisms_follow_the_chain() {
     agrees("adhesive-content", &[0.037], None, &[RATE, SPOOL]);

@@ -148,7 +148,10 @@ fn what_cannot_be_is_refused_with_line_and_remedy() {
         &["explain", "coil.ron"],
         "coil.ron: is a coil file; add --sensitivity S, as it was measured, and the changes that would give it are explained",
     );
-    refused(&["explain", "missing.csv"], "missing.csv: is no file, and no id of a mechanism, a warning or a note; `fogcoil explain` lists all");
+    refused(
+        &["explain", "missing.csv"],
+        "missing.csv: is no file, and no id of a mechanism, a warning or a note; `fogcoil explain` lists all",
+    );
     // a folder of that name is no mechanism's file
     std::fs::create_dir(folder.path("debond")).unwrap();
     assert!(stdout(&folder.run(&["explain", "debond"])).starts_with("debond: "));

@@ -26,7 +26,7 @@ use recalibrated::{Recalibrated, share};
 use recording::median_interval;
 use std::cell::RefCell;
 use std::sync::Arc;
-use together::{Acting, together};
+use together::{Acting, Kind, together};
 
 /// A design's library and the recordings it is compared with.
 pub struct Gyro<'m> {
@@ -235,10 +235,14 @@ impl<'m> Gyro<'m> {
         own.len() == at_work.len() && at_work.iter().all(near)
     }
 
-    /// Whether a mechanism is another path of heat, and leaves the constants as they are.
-    fn is_path(&self, mechanism: usize) -> bool {
+    fn kind(&self, mechanism: usize) -> Kind {
         let facts = self.kinds[mechanism].facts();
-        facts.stage == Stage::Thermal && facts.heat_path.is_some()
+        match facts.stage {
+            // another path of heat leaves the constants as they are
+            Stage::Thermal if facts.heat_path.is_some() => Kind::Path,
+            Stage::Winding => Kind::Winding,
+            _ => Kind::Other,
+        }
     }
 
     /// The paths of heat that the models have at work and a hypothesis has not, as they are drawn.
@@ -287,12 +291,13 @@ impl<'m> Gyro<'m> {
         let away = self.taken_away(active);
         let at_work = others.into_iter().chain(&away);
         let effects =
-            at_work.map(|a| Ok((self.is_path(a.mechanism), self.effect(number, a)?))).collect::<Result<Vec<_>, Error>>()?;
+            at_work.map(|a| Ok((self.kind(a.mechanism), self.effect(number, a)?))).collect::<Result<Vec<_>, Error>>()?;
         let changes: Vec<Acting> = effects
             .iter()
-            .filter_map(|(is_path, known)| Some(Acting { change: known.change()?, gain: known.gain, is_path: *is_path }))
+            .filter_map(|(kind, known)| Some(Acting { change: known.change()?, gain: known.gain, kind: *kind }))
             .collect();
-        let parts = together(&record.nominal.parts, &without, &changes);
+        let by_heat = changes.iter().any(|acting| acting.kind == Kind::Winding).then(|| self.by_heat(&without));
+        let parts = together(&record.nominal.parts, &without, by_heat, &changes);
         for Acting { change, .. } in &changes {
             if let Some(of_thermometer) = &change.thermometer {
                 add(&mut thermometer, of_thermometer, 1.0);

@@ -1,17 +1,20 @@
 //! The nominal model with its uncertain numbers somewhere: constants of the design, sensors, errors of the model.
 
 use super::Gyro;
-use super::recalibrated::{Recalibrated, share};
+use super::recalibrated::{ByHeat, Recalibrated, share};
 use crate::change::Change;
+use crate::constants::Constant;
 use crate::course::{Series, add};
 use crate::instruments;
 use crate::record_to_bias::Prepared;
 use crate::series::lagged;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Share of a constant's tolerance by which it may go before it follows its path of heat, and the share of itself if that is less: over it the path bends by
 /// little more than a percent.
 const LINEAR: [f64; 2] = [0.25, 0.025];
+/// Change of the thermometer by a constant's tolerance below which that changes no temperature \[K\]: rounding.
+const COLD_K: f64 = 1e-9;
 /// Constants that are moved from where others are known.
 const FEW: usize = 2;
 
@@ -137,7 +140,29 @@ impl Gyro<'_> {
         let of_tails = [0, 1, 2].map(|p: usize| record.tail[p].iter().map(|x| x * tails[p]).collect());
         let rest = sensor[0];
         sensor.iter_mut().for_each(|t| *t = rest + (*t - rest) * more);
-        Recalibrated { record: number, at: u.to_vec(), parts, of_tails, thermometer: sensor, gain }
+        let (at, by_heat) = (u.to_vec(), OnceLock::new());
+        Recalibrated { record: number, at, parts, of_tails, thermometer: sensor, gain, factors, by_heat }
+    }
+
+    /// What is recalibrated without the constants that change no temperature.
+    pub(super) fn by_heat<'a>(&self, here: &'a Recalibrated) -> &'a ByHeat {
+        let told = &here.at[instruments::CONSTANTS..];
+        here.by_heat.get_or_init(|| {
+            let record = &self.records[here.record];
+            let constants = self.library().constants.iter().zip(self.library().values()).enumerate();
+            let of = |(k, (constant, value)): (usize, (&Constant, f64))| {
+                let slope = self.slope(record, k, [constant.told(value), told[k]])?;
+                slope.0.sensor.iter().all(|t| t.abs() * constant.tolerance < COLD_K).then_some(slope)
+            };
+            let mut mechanical = record.nominal.nothing();
+            mechanical.change_by_all(&constants.filter_map(of).collect::<Vec<_>>());
+            let mut found = ByHeat { parts: here.parts.clone(), gain: here.gain };
+            for (p, factor) in here.factors.iter().enumerate() {
+                add(&mut found.parts[p], &mechanical.parts[p], -factor);
+                found.gain[p] -= factor * share(&mechanical.parts[p], record, p);
+            }
+            found
+        })
     }
 
     /// Reading of a thermometer of the spool from its temperature.

@@ -1,5 +1,7 @@
 //! Parts of the nominal model that are kept at a point.
 
+use std::sync::OnceLock;
+
 use crate::course::{Parts, product};
 use crate::record_to_bias::Prepared;
 
@@ -14,6 +16,17 @@ pub(super) struct Recalibrated {
     pub(super) of_tails: Parts,
     pub(super) thermometer: Vec<f64>,
     /// share of every nominal part in `parts`
+    pub(super) gain: [f64; 3],
+    /// factor of every part beside what the constants do
+    pub(super) factors: [f64; 3],
+    /// the same as far as the temperatures make it, for who asks
+    pub(super) by_heat: OnceLock<ByHeat>,
+}
+
+/// Parts with those constants moved that change the temperatures, and no other: these change what every turn adds alike, the others what one turn adds
+/// over another.
+pub(super) struct ByHeat {
+    pub(super) parts: Parts,
     pub(super) gain: [f64; 3],
 }
 

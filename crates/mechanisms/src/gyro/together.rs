@@ -1,6 +1,6 @@
 //! Several changes of the parts of the bias at once.
 
-use super::recalibrated::Recalibrated;
+use super::recalibrated::{ByHeat, Recalibrated};
 use crate::change::Change;
 use crate::course::Parts;
 
@@ -9,29 +9,43 @@ pub(super) struct Acting<'a> {
     pub(super) change: &'a Change,
     /// share of every nominal part in its change
     pub(super) gain: [f64; 3],
-    /// whether it is a path of heat
-    pub(super) is_path: bool,
+    pub(super) kind: Kind,
+}
+
+/// The way in which a change goes with what the constants do.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Kind {
+    /// it changes the temperatures
+    Path,
+    /// it weighs the turns otherwise: what the constants do to the temperatures alone is a gain on it, and it on that
+    Winding,
+    Other,
 }
 
 /// Parts of the bias with the nominal model's constants moved and `changes` at work, of which each is that of the `nominal` parts.
 ///
 /// A path of heat changes the temperatures that all others act on: its gain on a part is one on their changes, too, and theirs is one on what it adds
 /// beyond its gain. The others act on different things, and their changes add up: a tail's share of a part that cancels nearly, as a
-/// quadrupole's does, says nothing of what it does to a softer coil. What the tolerance of the tails adds is of that kind, too.
-pub(super) fn together(nominal: &Parts, without: &Recalibrated, changes: &[Acting]) -> Parts {
+/// quadrupole's does, says nothing of what it does to a softer coil. What the tolerance of the tails adds is of that kind, too. So a change of the winding
+/// goes with what constants do `by_heat`, and adds to what others do.
+pub(super) fn together(nominal: &Parts, without: &Recalibrated, by_heat: Option<&ByHeat>, changes: &[Acting]) -> Parts {
     let mut parts = without.parts.clone();
     for (p, part) in parts.iter_mut().enumerate() {
         let of_paths = |but: Option<usize>| {
-            let paths = changes.iter().enumerate().filter(|(k, acting)| acting.is_path && Some(*k) != but);
+            let paths = changes.iter().enumerate().filter(|(k, acting)| acting.kind == Kind::Path && Some(*k) != but);
             paths.fold(1.0, |gain, (_, acting)| gain * (1.0 + acting.gain[p]))
         };
         let (all_paths, of_constants) = (of_paths(None), without.gain[p]);
-        let of_others = 1.0 + changes.iter().filter(|acting| !acting.is_path).map(|acting| acting.gain[p]).sum::<f64>();
+        let of_others = 1.0 + changes.iter().filter(|acting| acting.kind != Kind::Path).map(|acting| acting.gain[p]).sum::<f64>();
         part.iter_mut().zip(&without.of_tails[p]).for_each(|(rate, of_tails)| *rate = all_paths * (*rate + of_tails));
-        for (k, Acting { change, gain, is_path }) in changes.iter().enumerate() {
+        for (k, Acting { change, gain, kind }) in changes.iter().enumerate() {
             let own = gain[p];
-            let rows = part.iter_mut().zip(&change.parts[p]).zip(nominal[p].iter().zip(&without.parts[p]));
-            if *is_path {
+            let (moved, of_constants) = match by_heat {
+                Some(by_heat) if *kind == Kind::Winding => (&by_heat.parts[p], by_heat.gain[p]),
+                _ => (&without.parts[p], of_constants),
+            };
+            let rows = part.iter_mut().zip(&change.parts[p]).zip(nominal[p].iter().zip(moved));
+            if *kind == Kind::Path {
                 let beyond = of_constants * of_paths(Some(k)) * of_others;
                 rows.for_each(|((rate, changed), (nominal, _))| *rate += beyond * (changed - own * nominal));
             } else {
@@ -47,6 +61,8 @@ pub(super) fn together(nominal: &Parts, without: &Recalibrated, changes: &[Actin
 
 #[cfg(test)]
 mod tests {
+    use std::sync::OnceLock;
+
     use super::*;
 
     const NOMINAL: [f64; 4] = [1.0, -2.0, 0.5, 0.25];
@@ -61,15 +77,17 @@ mod tests {
 
     fn at(series: [f64; 4], gain: f64) -> Recalibrated {
         let of_tails = parts([0.0; 4]);
-        Recalibrated { record: 0, at: Vec::new(), parts: parts(series), of_tails, thermometer: Vec::new(), gain: [gain; 3] }
+        let (at, thermometer, by_heat) = (Vec::new(), Vec::new(), OnceLock::new());
+        let (gain, factors) = ([gain; 3], [1.0; 3]);
+        Recalibrated { record: 0, at, parts: parts(series), of_tails, thermometer, gain, factors, by_heat }
     }
 
     fn acting(change: &Change, gain: f64, is_path: bool) -> Acting<'_> {
-        Acting { change, gain: [gain; 3], is_path }
+        Acting { change, gain: [gain; 3], kind: if is_path { Kind::Path } else { Kind::Other } }
     }
 
     fn first(changes: &[Acting], without: &Recalibrated) -> Vec<f64> {
-        let [first, ..] = together(&parts(NOMINAL), without, changes);
+        let [first, ..] = together(&parts(NOMINAL), without, None, changes);
         first
     }
 
