@@ -247,6 +247,8 @@ impl Limits {
             Kept::NotKnown(format!(
                 "{name} is an upper bound, {shown}, as the temperature changed: a limit that it does not keep may be kept; record at rest"
             ))
+        } else if name == "verdict_probability" && value < least {
+            Kept::NotKnown(format!("{name} is {shown}, {}: a small fault may hide beside the verdict", limit.broken()))
         } else {
             Kept::No(format!("{name} is {shown}, {}", limit.broken()))
         }
@@ -299,6 +301,22 @@ mod tests {
         assert_eq!(
             (fails.word(), fails.reasons().unwrap()),
             ("fail", format!("the verdict is recalibrate; sensitivity is not known: {why}"))
+        );
+    }
+
+    /// A verdict that is hardly the likeliest is no fault.
+    #[test]
+    fn a_verdict_below_its_limit_is_not_known() {
+        let limits = check_limits("limits.ron".as_ref(), "(limits: {\"verdict_probability\": Within(0.8, 1.0)})").unwrap();
+        let of = |sure: f64| {
+            let diagnosis = json!({"verdict": "recalibrate", "verdicts": {"none": 0.0, "recalibrate": sure, "explained": 0.0, "unknown": 0.0}});
+            limits.judge(&Row::of(&json!({"unit": "U", "measured": {}, "diagnosis": diagnosis})))
+        };
+        let below = of(0.63);
+        assert_eq!(of(0.9).reasons(), None);
+        assert_eq!(below.word(), "not known");
+        assert!(
+            below.reasons().unwrap().starts_with("verdict_probability is 0.6300, not within 0.8 and 1: a small fault may hide")
         );
     }
 
