@@ -7,7 +7,7 @@ const FAR: f64 = 10.0;
 
 /// The first of these units in which a rate `agrees` with a prediction, given the factor on the rate as it was read.
 pub(crate) fn suspected(units: &[Unit], agrees: impl Fn(f64) -> bool) -> Option<&Unit> {
-    let is_far = |unit: &&Unit| !(1.0 / FAR..FAR).contains(&unit.scale);
+    let is_far = |unit: &&Unit| unit.scale.max(1.0 / unit.scale) >= FAR;
     units.iter().filter(is_far).find(|unit| agrees(unit.scale))
 }
 

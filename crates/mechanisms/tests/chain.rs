@@ -186,14 +186,21 @@ fn constants_beside_a_tail_follow_the_chain() {
     let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
     let without = anew(&long);
     let of_tail = rms(&minus(&without[RATE], &anew(&design)[RATE]));
-    for name in ["E_r and G", "end of the winding [mm]", "specific heat of the coil", "conductivity of the surroundings"] {
+    // expansions change what every turn adds, too: that is missed
+    for (name, bound) in [
+        ("E_r and G", 0.012),
+        ("end of the winding [mm]", 0.003),
+        ("specific heat of the coil", 0.003),
+        ("conductivity of the surroundings", 0.003),
+        ("spool expansion", 0.013),
+    ] {
         let place = gyro.nuisances().iter().position(|n| n.parameter.name == name).expect("a constant");
         let mut u = middle.clone();
         u[place] = gyro.nuisances()[place].parameter.prior.value(1.0);
         let of = |u: &[f64]| gyro.respond(0, u, std::slice::from_ref(&tail)).expect("response").swap_remove(RATE);
         let effect = minus(&anew(&with_constant(&long, name, u[place]).expect("a constant"))[RATE], &without[RATE]);
         let off = rms(&minus(&minus(&of(&u), &of(&middle)), &effect));
-        assert!(off < 0.012 * of_tail && rms(&effect) > 0.02 * of_tail, "{name}: {off} of {of_tail}, {}", rms(&effect));
+        assert!(off < bound * of_tail && rms(&effect) > 0.02 * of_tail, "{name}: {off} of {of_tail}, {}", rms(&effect));
     }
 }
 

@@ -102,8 +102,9 @@ pub fn smoothed(time: &[f64], values: &[f64], digit: Option<f64>) -> Result<Smoo
             (series.deviance(&start), start)
         });
         let deviance;
-        // a NaN is no likelihood, and the last
-        (deviance, found) = ends.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_else(|| (f64::NAN, series.even()));
+        // a NaN is no likelihood
+        let told = ends.filter(|(deviance, _)| !deviance.is_nan());
+        (deviance, found) = told.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_else(|| (f64::NAN, series.even()));
         if deviance < likeliest.0 {
             likeliest = (deviance, lag, found.clone());
         }

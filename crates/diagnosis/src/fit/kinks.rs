@@ -91,13 +91,13 @@ impl Objective<'_> {
     fn along(&self, best: &Fit, i: usize) -> Result<Vec<Point>, Error> {
         let distances = self.parameter(self.layout[i]).map_or(&[][..], |p| &p.around);
         let mut points = Vec::new();
-        for sign in [-1.0, 1.0] {
+        'sides: for sign in [-1.0, 1.0] {
             let (mut u, mut derivatives, mut gone) = (best.u.clone(), best.derivatives.clone(), 0.0);
             for distance in distances {
                 self.shift(&mut u, i, sign * (distance - gone));
                 gone = *distance;
                 for _ in 0..FOLLOWED {
-                    let Some(point) = self.followed(&mut derivatives, u.clone(), (i, None))? else { return Ok(points) };
+                    let Some(point) = self.followed(&mut derivatives, u.clone(), (i, None))? else { continue 'sides };
                     u.clone_from(&point.u);
                     points.push(point);
                 }

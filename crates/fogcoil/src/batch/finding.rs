@@ -12,7 +12,7 @@ use crate::Error;
 use crate::cache::Cache;
 use crate::diagnose::{diagnose, of_columns};
 use crate::input::{Asked, CoilCase, RecordCase, RecordOptions, hexadecimal, read_record};
-use crate::measure::{self, Measurement, Prediction, Told, measure};
+use crate::measure::{self, Figure, Measurement, Prediction, Told, measure};
 
 /// Inputs that all units share.
 pub struct Inputs<'a> {
@@ -118,27 +118,30 @@ impl Inputs<'_> {
 /// and an upper bound of the bias instability gives way to a floor. What else is told is of the record that tells the sensitivity best, of the first where none
 /// tells it.
 fn of_unit(all: &[Measurement]) -> Option<Measurement> {
-    let best = |of: fn(&Measurement) -> &Told| best_of(all.iter(), of);
+    let best = |of: fn(&Measurement) -> &Told| best_of(all.iter(), of, absolute);
     let sensitivity = best(|m| &m.sensitivity)?;
     let size = |m: &Measurement| m.peak.as_ref().map_or(0.0, |peak| peak.value.abs());
     let highest = all.iter().fold(sensitivity, |highest, m| if size(m) > size(highest) { m } else { highest });
     let (peak, peak_time, peak_under) = (highest.peak.clone(), highest.peak_time, highest.peak_under);
-    let widest = all.iter().filter_map(|m| m.span_range).fold(0.0, f64::max);
-    let wide = all.iter().filter(|m| m.span_range.is_some_and(|range| range >= WIDE * widest));
-    let span = best_of(wide, |m| &m.bias_span).unwrap_or(sensitivity);
+    // a record that does not tell the bias over temperature is no measure of those that do
+    let widest = all.iter().filter(|m| m.bias_span.is_ok()).filter_map(|m| m.span_range).fold(0.0, f64::max);
+    let wide = || all.iter().filter(|m| m.span_range.is_some_and(|range| range >= WIDE * widest));
+    let span = best_of(wide(), |m| &m.bias_span, upper).unwrap_or(sensitivity);
+    let hysteresis = best_of(wide(), |m| &m.hysteresis, absolute).filter(|m| m.hysteresis.is_ok());
     let floors = all.iter().filter(|m| !m.floor_is_bound && m.bias_instability.is_ok());
-    let floor = best_of(floors, |m| &m.bias_instability).or_else(|| best(|m| &m.bias_instability))?;
+    let floor =
+        best_of(floors, |m| &m.bias_instability, ratio).or_else(|| best_of(all.iter(), |m| &m.bias_instability, ratio))?;
     let mut unit = Measurement {
         heating: best(|m| &m.heating)?.heating.clone(),
         cooling: best(|m| &m.cooling)?.cooling.clone(),
         asymmetry: best(|m| &m.asymmetry)?.asymmetry.clone(),
-        hysteresis: best(|m| &m.hysteresis)?.hysteresis.clone(),
+        hysteresis: hysteresis.or_else(|| best(|m| &m.hysteresis))?.hysteresis.clone(),
         bias_span: span.bias_span.clone(),
         span_range: span.span_range,
         peak,
         peak_time,
         peak_under,
-        arw: best(|m| &m.arw)?.arw.clone(),
+        arw: best_of(all.iter(), |m| &m.arw, ratio)?.arw.clone(),
         bias_instability: floor.bias_instability.clone(),
         floor_time: floor.floor_time,
         floor_is_bound: floor.floor_is_bound,
@@ -152,10 +155,30 @@ fn of_unit(all: &[Measurement]) -> Option<Measurement> {
 /// Share of the widest range of temperatures from which a record's bias over temperature may be that of the unit: over less, a parabola makes about half of it.
 const WIDE: f64 = 0.75;
 
-/// The record that tells a figure best: by the narrowest interval, else by its value alone; the first of equals.
-fn best_of<'a>(all: impl Iterator<Item = &'a Measurement>, of: fn(&Measurement) -> &Told) -> Option<&'a Measurement> {
+/// Width of an interval.
+fn absolute(figure: &Figure) -> f64 {
+    figure.ci90[1] - figure.ci90[0]
+}
+
+/// The same of a figure whose lower end may be cut at 0.
+fn upper(figure: &Figure) -> f64 {
+    figure.ci90[1] - figure.value
+}
+
+/// The same of a figure that is known to a share of itself: the quietest record would always be the best.
+fn ratio(figure: &Figure) -> f64 {
+    let [low, high] = figure.ci90;
+    if low > 0.0 { (high / low).ln() } else { f64::INFINITY }
+}
+
+/// The record that tells a figure best: by the least `width` of its interval, else by its value alone; the first of equals.
+fn best_of<'a>(
+    all: impl Iterator<Item = &'a Measurement>,
+    of: fn(&Measurement) -> &Told,
+    width: fn(&Figure) -> f64,
+) -> Option<&'a Measurement> {
     let rank = |m: &Measurement| match of(m) {
-        Ok(figure) => (0, figure.ci90[1] - figure.ci90[0]),
+        Ok(figure) => (0, width(figure)),
         Err(untold) => (if untold.value.is_some() { 1 } else { 2 }, 0.0),
     };
     all.min_by(|a, b| {
@@ -178,7 +201,6 @@ mod tests {
 
     use super::*;
     use crate::input::check_record;
-    use crate::measure::Figure;
 
     #[test]
     fn a_units_peak_is_that_of_all_its_records_whichever_tells_the_sensitivity_best() {
@@ -223,6 +245,16 @@ mod tests {
             let unit = of_unit(&all).unwrap();
             assert_eq!((&unit.sensitivity, &unit.bias_span), (&ramps.sensitivity, &rests.bias_span));
         }
+        // noise is known to a share of itself: the quieter record is not the better one; over a fifth of the range hysteresis is another
+        let of = |arw: (f64, f64), hysteresis: f64, range: f64| Measurement {
+            arw: told(arw.0, arw.1),
+            hysteresis: told(hysteresis, hysteresis / 10.0),
+            span_range: Some(range),
+            ..ramps.clone()
+        };
+        let [quiet, sure] = [of((0.01, 0.001), 0.01, 20.0), of((0.02, 0.0018), 0.2, 100.0)];
+        let unit = of_unit(&[quiet, sure.clone()]).unwrap();
+        assert_eq!((&unit.arw, &unit.hysteresis), (&sure.arw, &sure.hysteresis));
         // what another record tells is told, and no note says that it is not
         let why = || Err("it moved".to_owned().into());
         let [untold, floor] = [

@@ -72,7 +72,10 @@ pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record, answered: Opt
 /// The words on a `rate` that is as the design predicts once it is taken to be in another unit, and far from that as it was read; `answered` is what the answer leaves of it.
 fn other_unit(rate: &[f64], drawn: &AsDrawn, units: &[Unit], answered: Option<f64>) -> Option<String> {
     let predicted = &drawn.predicted[RATE_CHANNEL];
-    let size = spread(predicted, predicted, 0.0);
+    // where nothing is predicted any unit agrees
+    let there: Vec<f64> =
+        predicted.iter().zip(rate).filter(|(_, rate)| rate.is_finite()).map(|(predicted, _)| *predicted).collect();
+    let size = spread(&there, &there, 0.0);
     let would = |scale: f64| scale * spread(rate, predicted, 1.0 / scale);
     let agrees = |scale: f64| {
         REVERSED * would(scale) < size && drawn.explains_as_much(would(scale), answered.map(|answered| scale * answered))
@@ -106,6 +109,11 @@ mod tests {
         let said = of(1.0 / 57.296, 0.1, Some(0.05 / 57.296)).unwrap();
         assert!(said.starts_with("rate_deg_per_h seems to be in rad/s: as it is read it is 57.3 times too small"), "{said}");
         assert!(of(3600.0, 0.1, None).unwrap().contains("in deg/h: as it is read it is 3600 times too large"));
+        // a rate at rest, whose size says nothing
+        let rest: Vec<f64> = (0..200).map(|n| if n < 60 { 0.01 * f64::from(n % 2) } else { f64::NAN }).collect();
+        let flat: Vec<f64> = course.iter().enumerate().map(|(n, r)| if n < 60 { 0.0 } else { *r }).collect();
+        let resting = AsDrawn { predicted: vec![flat; 2], tolerated: 0.1 };
+        assert_eq!(other_unit(&rest, &resting, &units, Some(0.005)), None);
         assert_eq!(
             [of(1.0, 0.1, None), of(1.0 / 57.296, 0.5, None), of(1.0 / 57.296, 0.0, Some(0.0)), of(-1.0 / 57.296, 0.1, None)],
             [const { None }; 4]

@@ -196,13 +196,15 @@ pub fn diagnose<'m>(
     // what was taken back explains the records that were fitted all the same
     let explains_fitted = law.is_some() || diagnosis.verdict != Verdict::Unknown || !withdrawn.is_empty();
     let explains_held = law.is_some() || diagnosis.verdict != Verdict::Unknown;
+    let mut is_unit = false;
     for (number, (record, answered)) in read.iter().chain(&held).zip(&answered).enumerate() {
         let explains = if number < read.len() { explains_fitted } else { explains_held };
-        notes.extend(columns::warning(&drawn, number, record, explains.then_some(answered.as_slice())).map_err(coil)?);
+        let found = columns::warning(&drawn, number, record, explains.then_some(answered.as_slice())).map_err(coil)?;
+        // no word of a drawing makes tens of the rate
+        is_unit |= number < read.len() && found.iter().any(|note| note.remark == Remark::RateUnit);
+        notes.extend(found);
     }
     let mut other_drawing = None;
-    // no word of a drawing makes tens of the rate
-    let is_unit = notes.iter().any(|note| note.remark == Remark::RateUnit);
     if diagnosis.verdict != Verdict::None && !is_unit {
         progress(Step::begins("drawings that differ in one word"));
         let of_rate: Vec<f64> = answered[..read.len()].iter().map(|answered| answered[RATE_CHANNEL]).collect();

@@ -41,7 +41,9 @@ impl Prediction {
         let off = |scale: f64| (scale * value - self.sensitivity.value).abs() / (scale * sd).hypot(self.sd);
         // neither is told from none, of which any unit makes the other
         let is_told = value.abs() > MOST * sd && self.sensitivity.value.abs() > MOST * self.sd;
-        let unit = suspected(&measured.rate_units, |scale| off(scale) < MOST).filter(|_| is_told && off(1.0) > MOST)?;
+        let is_alike = |scale: f64| ALIKE.contains(&(scale * value / self.sensitivity.value));
+        let agrees = |scale: f64| is_alike(scale) && off(scale) < MOST;
+        let unit = suspected(&measured.rate_units, agrees).filter(|_| is_told && off(1.0) > MOST)?;
         let (name, how) = (&unit.name, how_far(unit.scale));
         let text = format!(
             "{RATE} seems to be in {name}: its sensitivity is {how} for {}, and in {name} {}; give --unit rate={name}, or unit in the map file",
@@ -52,5 +54,7 @@ impl Prediction {
     }
 }
 
+/// Ratios of a measured sensitivity in another unit to the predicted one at which that unit may be the right one: a wide prediction agrees with much.
+const ALIKE: std::ops::Range<f64> = 0.5..2.0;
 /// Standard deviations from which a measured sensitivity is not the predicted one.
 const MOST: f64 = 3.0;

@@ -131,6 +131,18 @@ mod tests {
         }
     }
 
+    /// Constants that make the coil twice as warm, and a softer coil that adds half of the nominal bias: the winding's change is twice as large, and adds to that.
+    #[test]
+    fn a_change_of_the_winding_goes_with_heat_alone() {
+        let (more, large) = (change(NOMINAL.map(|x| 0.7 * x)), change([0.3, 0.1, -0.2, 0.7]));
+        let by_heat = ByHeat { parts: parts(NOMINAL.map(|x| 2.0 * x)), gain: [2.0; 3] };
+        let without = at(NOMINAL.map(|x| 2.5 * x), 2.5);
+        let winding = |change, gain| Acting { change, gain: [gain; 3], kind: Kind::Winding };
+        let [first, ..] = together(&parts(NOMINAL), &without, Some(&by_heat), &[winding(&more, 0.7), winding(&large, 0.2)]);
+        let sum: Vec<f64> = NOMINAL.iter().zip(&large.parts[0]).map(|(n, l)| (2.5 + 1.4) * n + 2.0 * l).collect();
+        near(&first, &sum);
+    }
+
     #[test]
     fn the_order_of_changes_does_not_matter() {
         let (a, b, c) = (change([0.3, 0.1, -0.2, 0.7]), change([1.0, 0.0, 0.0, 2.0]), change([0.0, -1.0, 0.1, 0.0]));
