@@ -137,7 +137,7 @@ fn profiles() {
 fn thermometers() {
     check!().with_max_len(LONGEST).for_each(|bytes: &[u8]| {
         let (folder, path) = file("spool.csv", bytes);
-        if let Err(error) = input::read_spool(&path, reference()) {
+        if let Err(error) = input::read_spool(&path, &input::RecordOptions::default(), reference()) {
             refused(folder.path(), &error);
         }
     });
