@@ -91,25 +91,34 @@ pub fn smoothed(time: &[f64], values: &[f64], digit: Option<f64>) -> Result<Smoo
     let least = step * step * (1.0 + 1.0 / 12.0);
     let behind = |lag: f64| Readings { values, moves: moves(&steps, lag), least };
     // weights have many optima: from even ones, and from those of the time constant before
-    let mut found = behind(LAGS[0]).even();
-    let mut likeliest = (f64::INFINITY, LAGS[0], found.clone());
-    for lag in LAGS {
-        let series = behind(lag);
-        let cornered = corners(&steps, values, lag).map(|weights| series.with(weights));
-        let starts = [Some(found), Some(series.even()), cornered].into_iter().flatten();
-        let ends = starts.map(|mut start| {
-            (0..TRIED).for_each(|_| series.reweigh(&mut start));
-            (series.deviance(&start), start)
-        });
-        let deviance;
-        // a NaN is no likelihood
-        let told = ends.filter(|(deviance, _)| !deviance.is_nan());
-        (deviance, found) = told.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_else(|| (f64::NAN, series.even()));
-        if deviance < likeliest.0 {
-            likeliest = (deviance, lag, found.clone());
+    let search = |even: &dyn Fn(&Readings, f64) -> Option<Found>| {
+        let mut likeliest: Option<(f64, f64, Found)> = None;
+        let mut found = None;
+        for lag in LAGS {
+            let series = behind(lag);
+            let starts = [found, even(&series, lag)].into_iter().flatten();
+            let ends = starts.map(|mut start| {
+                (0..TRIED).for_each(|_| series.reweigh(&mut start));
+                (series.deviance(&start), start)
+            });
+            // a NaN is no likelihood
+            let best = ends.filter(|(deviance, _)| !deviance.is_nan()).min_by(|a, b| a.0.total_cmp(&b.0));
+            found = best.as_ref().map(|(_, found)| found.clone());
+            if let Some((deviance, found)) = best
+                && likeliest.as_ref().is_none_or(|(least, ..)| deviance < *least)
+            {
+                likeliest = Some((deviance, lag, found));
+            }
         }
-    }
-    let (_, lag, mut found) = likeliest;
+        likeliest
+    };
+    // and from one corner in each run of missing values
+    let searched = [
+        search(&|series, _| Some(series.even())),
+        search(&|series, lag| corners(&steps, values, lag).map(|weights| series.with(weights))),
+    ];
+    let likeliest = searched.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0));
+    let (_, lag, mut found) = likeliest.unwrap_or_else(|| (f64::NAN, LAGS[0], behind(LAGS[0]).even()));
     let series = behind(lag);
     (0..ROUNDS).for_each(|_| series.reweigh(&mut found));
     let filter = series.filter(&found);
