@@ -189,6 +189,7 @@ fn intervals_hold_the_truth_beside_white_noise_alone() {
 /// A response that sets in late, as that of a coil that is warmed through its spool: two time constants near each other, with amounts that nearly cancel. Of a
 /// quiet gyroscope what the estimator's own time constants miss of it is the largest error.
 #[test]
+#[ignore = "a minute"]
 fn intervals_hold_the_truth_of_a_response_that_sets_in_late() {
     for (white, interval, least) in [(0.01, 30.0, 30), (0.05, 60.0, 15)] {
         let mut coverage = Coverage::default();
@@ -328,6 +329,7 @@ fn a_unit_that_is_seen_to_settle_is_told() {
 }
 
 #[test]
+#[ignore = "a minute"]
 fn hysteresis_needs_rests_at_one_temperature() {
     // 20 degC from below, 60 degC, 20 degC from above, −20 degC, 20 degC from below
     let corners = [-20.0, 20.0, 60.0, 20.0, -20.0, 20.0];

@@ -173,6 +173,12 @@ mod tests {
 
     #[test]
     fn units_are_answered() {
+        made(1);
+    }
+
+    #[test]
+    #[ignore = "minutes"]
+    fn more_units_are_answered() {
         made(2);
     }
 
