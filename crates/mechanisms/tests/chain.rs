@@ -29,10 +29,14 @@ fn chamber_at(t: f64) -> f64 {
     20.0 + (1.0 - (-(t / 2000.0).powi(2)).exp()) * 40.0 * (t / 4000.0).sin() * (0.3 + 0.7 * (t / 9000.0).cos())
 }
 
+/// Steps that were told while the model of [`gyro`] was made, and of how many.
+static TOLD: std::sync::Mutex<Vec<(usize, usize)>> = std::sync::Mutex::new(Vec::new());
+
 fn gyro() -> &'static std::sync::Mutex<Gyro<'static>> {
     static GYRO: OnceLock<std::sync::Mutex<Gyro<'static>>> = OnceLock::new();
     GYRO.get_or_init(|| {
-        let library = Library::build(&design(), CATALOGUE, &|_| ()).expect("library");
+        let told = |step: progress::Step| TOLD.lock().expect("counts").extend(step.done);
+        let library = Library::build(&design(), CATALOGUE, &told).expect("library");
         std::sync::Mutex::new(of(library, CATALOGUE))
     })
 }
@@ -453,18 +457,33 @@ fn exact_an_adhesive_content_needs_a_coil_of_glass_and_polymer() {
 /// In a steady ramp each parameter that matters makes its own change of the mechanical state.
 #[test]
 fn exact_a_steady_change_of_the_mechanical_state_is_that_of_its_parameter() {
-    let of = |id: &str| mechanisms::find(id).expect("known").facts().steady;
-    let states: Vec<coil::MechanicalState> = of("glass-transition")
-        .iter()
-        .filter_map(|steady| match steady {
-            mechanisms::Steady::Changes { changed, .. } => Some(changed(&design(), 0.7).1),
+    let of = |id: &str, value: f64| -> Vec<coil::MechanicalState> {
+        let facts = mechanisms::find(id).expect("known").facts();
+        let changed = |steady: &mechanisms::Steady| match steady {
+            mechanisms::Steady::Changes { changed, .. } => Some(changed(&design(), value).1),
             _ => None,
-        })
-        .collect();
+        };
+        facts.steady.iter().filter_map(changed).collect()
+    };
     let nominal = coil::MechanicalState::NOMINAL;
-    let [modulus, expansion] = states[..] else { panic!("{states:?}") };
-    assert_eq!(modulus, coil::MechanicalState { transverse_modulus: 0.7, ..nominal });
-    assert_eq!(expansion, coil::MechanicalState { transverse_expansion: 0.7, ..nominal });
+    let softer = coil::MechanicalState { transverse_modulus: 0.7, ..nominal };
+    assert_eq!(of("glass-transition", 0.7), [softer, coil::MechanicalState { transverse_expansion: 0.7, ..nominal }]);
+    // the share that relaxes is gone in the end
+    for id in ["viscoelastic-relaxation", "stress-free-temperature"] {
+        let [relaxed] = of(id, 0.3)[..] else { panic!("{id}") };
+        assert!((relaxed.transverse_modulus - 0.7).abs() < 1e-15, "{id}");
+        assert_eq!(coil::MechanicalState { transverse_modulus: 1.0, ..relaxed }, nominal);
+    }
+}
+
+/// Steps are counted up to the last, and none beyond.
+#[test]
+fn progress_ends_with_the_last_model() {
+    drop(gyro().lock());
+    let told = TOLD.lock().expect("counts");
+    assert!(told.iter().all(|(done, of)| done <= of), "{told:?}");
+    let (last, of) = told.iter().copied().max().expect("a step");
+    assert!(last == of && told.len() == of && told.iter().all(|(_, other)| *other == of), "{last} of {of}");
 }
 
 #[test]
