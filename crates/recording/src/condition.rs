@@ -118,7 +118,7 @@ fn on_line(time: &[f64], values: &[f64], [a, b]: [usize; 2], row: usize) -> f64 
 }
 
 /// Mean of what is there; NaN if that is less than half.
-fn mean(values: &[f64]) -> f64 {
+pub(crate) fn mean(values: &[f64]) -> f64 {
     let (sum, count) = values.iter().filter(|v| v.is_finite()).fold((0.0, 0), |(s, n), v| (s + v, n + 1));
     if 2 * count < values.len() { f64::NAN } else { sum / count as f64 }
 }

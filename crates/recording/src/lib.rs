@@ -3,6 +3,7 @@
 pub mod allan;
 pub mod check;
 pub mod condition;
+mod corners;
 mod error;
 pub mod lag;
 pub mod lines;

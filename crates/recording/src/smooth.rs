@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::condition::span;
+use crate::corners::corners;
 use crate::series::{check_series, median_interval};
 use nalgebra::{Matrix3, Vector3};
 
@@ -22,10 +23,10 @@ const CLOSE: f64 = 0.1;
 const UNKNOWN: f64 = 1e6;
 /// Share of the range below which a step is what rounding leaves of one value: no course is smoothed as if it were better.
 const ROUNDING: f64 = 1e-7;
-/// Values beside a run of missing ones through which a line is laid.
-const BESIDE: usize = 10;
-/// Weight of a step with a corner, from which a search begins.
+/// Weight of a step with a corner, from which a search begins: little enough that any turn is made there; reweighing finds the likely one.
 const CORNER: f64 = 1e-4;
+/// Weight of a step that does not turn at all.
+const STRAIGHT: f64 = (FREEDOM + RANK) / FREEDOM;
 /// Fewest rows that can be smoothed.
 pub const FEWEST_ROWS: usize = 8;
 
@@ -90,13 +91,14 @@ pub fn smoothed(time: &[f64], values: &[f64], digit: Option<f64>) -> Result<Smoo
     let step = step.max(ROUNDING * span(values));
     let least = step * step * (1.0 + 1.0 / 12.0);
     let behind = |lag: f64| Readings { values, moves: moves(&steps, lag), least };
+    let time: Vec<f64> = time.iter().map(|t| (t - time[0]) / unit).collect();
     // weights have many optima: from even ones, and from those of the time constant before
-    let search = |even: &dyn Fn(&Readings, f64) -> Option<Found>| {
+    let search = |anew: &dyn Fn(&Readings, f64) -> Option<Found>| {
         let mut likeliest: Option<(f64, f64, Found)> = None;
         let mut found = None;
         for lag in LAGS {
             let series = behind(lag);
-            let starts = [found, even(&series, lag)].into_iter().flatten();
+            let starts = [found, anew(&series, lag)].into_iter().flatten();
             let ends = starts.map(|mut start| {
                 (0..TRIED).for_each(|_| series.reweigh(&mut start));
                 (series.deviance(&start), start)
@@ -113,10 +115,8 @@ pub fn smoothed(time: &[f64], values: &[f64], digit: Option<f64>) -> Result<Smoo
         likeliest
     };
     // and from one corner in each run of missing values
-    let searched = [
-        search(&|series, _| Some(series.even())),
-        search(&|series, lag| corners(&steps, values, lag).map(|weights| series.with(weights))),
-    ];
+    let searched =
+        [search(&|series, _| Some(series.even())), search(&|series, lag| Some(series.with(cornered(&time, values, lag)?)))];
     let likeliest = searched.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0));
     let (_, lag, mut found) = likeliest.unwrap_or_else(|| (f64::NAN, LAGS[0], behind(LAGS[0]).even()));
     let series = behind(lag);
@@ -150,41 +150,18 @@ fn moves(steps: &[f64], lag: f64) -> Vec<Move> {
     moves
 }
 
-/// Weights of the steps where every run of missing values has one corner of the programme, and no other step: where the lines of the values before and
-/// behind meet, less the time constant by which these follow. `None` if no value is missing, or no lines meet there. Weights that make two corners of
-/// one, at the ends of the run, are an optimum, too, which no reweighing leaves.
-fn corners(steps: &[f64], values: &[f64], lag: f64) -> Option<Vec<f64>> {
-    let time: Vec<f64> = std::iter::once(0.0)
-        .chain(steps.iter().scan(0.0, |t, step| {
-            *t += step;
-            Some(*t)
-        }))
-        .collect();
-    let line = |rows: &mut dyn Iterator<Item = usize>| {
-        let (t, x): (Vec<f64>, Vec<f64>) =
-            rows.filter(|n| !values[*n].is_nan()).take(BESIDE).map(|n| (time[n], values[n])).unzip();
-        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-        let (at, level) = (mean(&t), mean(&x));
-        let squares: f64 = t.iter().map(|t| (t - at).powi(2)).sum();
-        let slope = t.iter().zip(&x).map(|(t, x)| (t - at) * (x - level)).sum::<f64>() / squares;
-        (slope, level - slope * at)
-    };
+/// Weights of the steps where every run of missing values has one corner of the programme, which its values follow with a lag, and no other turn; `None` if
+/// there is none. Weights that make two corners of one, at the ends of the run, are an optimum, too, which no reweighing leaves.
+fn cornered(time: &[f64], values: &[f64], lag: f64) -> Option<Vec<f64>> {
     let mut weights: Option<Vec<f64>> = None;
-    let mut n = 0;
-    while n < values.len() {
-        let behind = (n..values.len()).find(|n| !values[*n].is_nan()).unwrap_or(values.len());
-        if behind > n && n > 0 && behind < values.len() {
-            let [(a, from), (b, to)] = [line(&mut (0..n).rev()), line(&mut (behind..values.len()))];
-            let corner = (to - from) / (a - b) - lag;
-            if corner >= time[n - 1] && corner <= time[behind] {
-                let weights = weights.get_or_insert_with(|| vec![1.0; steps.len()]);
-                let most = (FREEDOM + RANK) / FREEDOM;
-                for step in n - 1..behind {
-                    weights[step] = if (time[step]..=time[step + 1]).contains(&corner) { CORNER } else { most };
-                }
+    for (hidden, meet) in corners(time, values) {
+        let corner = meet - lag;
+        if corner >= time[hidden.start] && corner <= time[hidden.end] {
+            let weights = weights.get_or_insert_with(|| vec![1.0; time.len() - 1]);
+            for step in hidden {
+                weights[step] = if (time[step]..=time[step + 1]).contains(&corner) { CORNER } else { STRAIGHT };
             }
         }
-        n = behind + 1;
     }
     weights
 }
@@ -197,6 +174,7 @@ struct Found {
 }
 
 impl Readings<'_> {
+    /// With even weights.
     fn even(&self) -> Found {
         self.with(vec![1.0; self.moves.len()])
     }
