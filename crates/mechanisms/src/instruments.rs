@@ -257,4 +257,19 @@ mod tests {
         assert!(!late(0.0, 0.0) && !late(0.5, 0.0) && !late(0.0, 1.0));
         assert!(late(0.0, 30.0) && late(20.0, 0.0));
     }
+
+    #[test]
+    fn exact_noise_of_a_coarser_record_is_the_same_in_a_minute() {
+        let white = |interval: f64| {
+            let instruments =
+                Instruments { white: [MINUTE / interval, 4.0 * MINUTE / interval].map(f64::sqrt), ..Instruments::default() };
+            channels(0.0, &instruments, interval, Passed { sd: [0.0; 2], time: [0.0; 2] })
+                .into_iter()
+                .map(|channel| channel.noise)
+        };
+        for (fine, coarse) in white(MINUTE).zip(white(4.0 * MINUTE)) {
+            assert!((fine.white.0 - 2.0 * coarse.white.0).abs() < 1e-12);
+            assert!((fine.drift.0 - coarse.drift.0).abs() < 1e-12 && (fine.walk.0 - coarse.walk.0).abs() < 1e-12);
+        }
+    }
 }

@@ -106,7 +106,7 @@ impl Chain {
         if let Some(known) = self.rewound.borrow().get(&key) {
             return Ok(known.clone());
         }
-        let defect = (layer > 0 && turns != 0).then_some(LayerDefect { layer, turns });
+        let defect = (turns != 0).then_some(LayerDefect { layer, turns });
         let functionals = self.library.rewound(0.0, defect)?;
         self.rewound.borrow_mut().insert(key, functionals.clone());
         Ok(functionals)

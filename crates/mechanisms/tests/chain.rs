@@ -79,6 +79,22 @@ fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
 }
 
 #[test]
+fn exact_a_rate_of_its_instants_and_one_of_its_rows_bend_alike() {
+    // the phase of a curved dn/dT goes through the same values, whatever a reading is called
+    let library = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).library().clone();
+    let (time, chamber) = course();
+    let bent = [0.0, 60.0].map(|averaging| {
+        let prepared = Prepared::new(&library, &time, &chamber, averaging).expect("prepared");
+        assert_eq!(prepared.time(), time);
+        let gyro = Gyro::new(library.clone(), CATALOGUE, vec![prepared]).expect("gyro");
+        let [nominal, with] = with_mechanism(&gyro, &design(), "thermo-optic-curvature", &[2.5e-8], None).1;
+        minus(&with[RATE], &nominal[RATE])
+    });
+    let (off, size) = (rms(&minus(&bent[0], &bent[1])), rms(&bent[1]));
+    assert!(size > 0.0 && off < 1e-6 * size, "{off} of {size}");
+}
+
+#[test]
 fn a_heater_of_the_design_s_own_follows_the_chain() {
     let mut heated = design();
     // neither an open bond nor a medium: fewer models

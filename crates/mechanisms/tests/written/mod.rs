@@ -2,7 +2,7 @@
 
 use super::common;
 use super::{gyro, rms};
-use coil::{Contact, Design, Drive, Dynamics, Heater, Profile, STANDARD, Side};
+use coil::{Contact, Design, Drive, Dynamics, Heater, Mechanics, Profile, STANDARD, Side};
 use diagnosis::{Active, ForwardModel, Parameter, Prior};
 use laws::{Expression, State, System};
 use mechanisms::{Body, CATALOGUE, Gyro, Input, Library, Mechanism, Prepared, RATE, SPOOL, Stage, Target, Written};
@@ -80,6 +80,37 @@ fn exact_a_law_that_says_what_a_mechanism_says_does_what_it_does() {
     close("expansion", &adds(&wide, [1.2, 35.0]), &of_catalogue("glass-transition", &[35.0, 5.0, 1.0, 1.2], None), 2e-3);
     let tail = written(&[], Target::Tail, "a");
     close("tail", &adds(&tail, [0.3, 0.0]), &of_catalogue("tail-asymmetry", &[0.3], None), 2e-3);
+    // a bond that is open throughout: below a temperature that no record reaches
+    let open = written(&[], Target::OpenBond, "a");
+    close("bond", &adds(&open, [0.3, 0.0]), &of_catalogue("debond", &[200.0, 5.0, 0.3], Some(1.0)), 1e-9);
+}
+
+#[test]
+fn a_law_is_offered_where_the_design_has_its_place() {
+    let scene = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).scene().clone();
+    let drawn = super::design();
+    let mut relaxing = drawn.clone();
+    relaxing.mechanics = Mechanics::Relaxing { fraction: 0.3, time: 9000.0 };
+    let mut free = drawn.clone();
+    free.spool = None;
+    for target in [
+        Target::Rate,
+        Target::Chamber,
+        Target::Tail,
+        Target::Bias,
+        Target::Stiffness,
+        Target::Expansion,
+        Target::FlangePower,
+        Target::OpenBond,
+    ] {
+        let is_offered = |design: &Design| written(&[], target, "a").offer(design, &scene).is_some();
+        let is_soft = matches!(target, Target::Stiffness | Target::Expansion);
+        let is_of_flange = matches!(target, Target::FlangePower | Target::OpenBond);
+        assert!(is_offered(&drawn), "{target:?}");
+        // stiffness and bonds are a design's own, once they change
+        assert_eq!(is_offered(&relaxing), !is_soft && target != Target::OpenBond, "{target:?}");
+        assert_eq!(is_offered(&free), !is_of_flange, "{target:?}");
+    }
 }
 
 #[test]

@@ -140,3 +140,14 @@ impl std::fmt::Display for Direction {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missing_ramp_is_named_by_its_direction() {
+        assert_eq!(Absent::OneWay(Direction::Heating).to_string(), "no ramp of the record heats");
+        assert_eq!(Absent::OneWay(Direction::Cooling).to_string(), "no ramp of the record cools");
+    }
+}
