@@ -188,6 +188,27 @@ fn intervals_hold_the_truth_beside_white_noise_alone() {
 
 /// A response that sets in late, as that of a coil that is warmed through its spool: two time constants near each other, with amounts that nearly cancel. Of a
 /// quiet gyroscope what the estimator's own time constants miss of it is the largest error.
+/// Neither the state in which the record begins nor the effect of its temperatures is known of a unit that settles for longer than the record rests.
+#[test]
+fn a_unit_that_settles_more_slowly_than_the_record_rests_has_no_largest_bias() {
+    const SLOW: f64 = 20_000.0;
+    let cycles: Vec<(f64, f64)> = (0..4)
+        .flat_map(|k| [(0.0, 20.0), (1800.0, 50.0), (3600.0, 50.0), (5400.0, 20.0)].map(|(t, c)| (7200.0 * f64::from(k) + t, c)))
+        .collect();
+    let amounts = [-30.0, -20.0];
+    let unit = Unit { lags: [4000.0, SLOW], heating: amounts, cooling: amounts, rest: [0.0; 2], hysteresis: 0.0 };
+    let record = Record::of(&unit, &cycles, &NoiseModel::white(1e-4, 60.0), 0.0, 1);
+    let behind = lagging(&record.time, &record.temperature, SLOW);
+    let seat: Vec<f64> = record.temperature.iter().zip(behind).map(|(t, behind)| t - behind).collect();
+    let found = record.respond_over(&seat).unwrap();
+    println!("{:?} {:?}", found.sensitivity, found.peak);
+    assert!(
+        matches!(found.sensitivity, Err(Absent::Unsettled(_))) && matches!(found.peak, Err(Absent::Unsettled(_))),
+        "{:?}",
+        found.peak
+    );
+}
+
 #[test]
 #[ignore = "a minute"]
 fn intervals_hold_the_truth_of_a_response_that_sets_in_late() {

@@ -281,3 +281,19 @@ fn what_cannot_be_measured_is_said() {
     refused(&["measure", "none.csv"], "none.csv");
     refused(&["measure", "nan.csv"], "nan.csv: cannot be used");
 }
+
+/// A design's electronics add nothing at rest: what a few lags miss of the coil's response is no bias over temperature.
+#[test]
+fn a_simulated_coil_has_no_bias_over_temperature() {
+    let folder = Folder::new();
+    let flanged = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/designs/flanged.ron");
+    folder.write(
+        "p.csv",
+        "time_s,chamber_c\n0,20\n1800,20\n5400,-40\n11000,-40\n17600,70\n24000,70\n27000,20\n40320,20\n",
+    );
+    let simulated = ["simulate", flanged, "--profile", "p.csv", "--step", "60", "--out", "r.csv", "--quiet"];
+    assert_eq!(folder.run(&simulated).status.code(), Some(0));
+    let found = json(&folder, &["measure", "r.csv", "--json"]);
+    let ([low, value, high], [_, peak, _]) = (interval(&found["bias_span"]), interval(&found["peak"]));
+    assert!(low == 0.0 && high < 0.01 * peak.abs(), "{low} to {high}, {value}; {peak}");
+}

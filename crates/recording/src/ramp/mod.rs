@@ -18,6 +18,9 @@
 //! behind it, where what is left of it depends on the side from which the rest was reached. What longer ones change of it counts as an error; if that is more than noise
 //! explains, none is told.
 //!
+//! What a set misses of the response, a bias over temperature takes up: as much of the largest effect is an error of the **span**, which the one set of all lags
+//! tells where that leaves less.
+//!
 //! The temperature is freed of its thermometer's noise first ([`crate::smooth`]). Beside noisy readings the amounts of short time constants come out too
 //! small, and those of long ones make up for them; beside the course that the readings make likely no amount does (regression calibration: Carroll et
 //! al. 2006).
@@ -146,7 +149,7 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
         &lags::finer(&sets),
     );
     let fine = |of: Sum| {
-        let (model, change) = finer.as_ref().ok_or(Absent::Indistinct)?;
+        let Finer { model, change, .. } = finer.as_ref().ok_or(Absent::Indistinct)?;
         let found = model.told(&of(&model.design)?, noise)?;
         Ok::<_, Absent>(Estimate { sd: found.sd.hypot(*change), ..found })
     };
@@ -156,9 +159,8 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
     // so many amounts may follow what is no lag, as a hysteresis: they then contradict the sets
     let both = |of: Sum| Some((fine(of).ok()?, coarse(of).ok()?));
     let agrees = |of: &Sum| both(*of).is_none_or(|(fine, coarse)| (fine.value - coarse.value).abs() < AGREES * coarse.sd);
-    let is_finer = matches!(slow, Slow::By(_))
-        && both(figures[0]).is_some_and(|(fine, coarse)| fine.sd < WORTH * coarse.sd)
-        && figures.iter().all(agrees);
+    let is_borne_out = matches!(slow, Slow::By(_)) && figures.iter().all(agrees);
+    let is_finer = is_borne_out && both(figures[0]).is_some_and(|(fine, coarse)| fine.sd < WORTH * coarse.sd);
     let told = |of: Sum| {
         let coarse = coarse(of)?;
         Ok(if is_finer { fine(of).unwrap_or(coarse) } else { coarse })
@@ -187,6 +189,31 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
         }
         Ok(Estimate { sd: found.sd.hypot(other.value - found.value), ..found })
     };
+    // what a set misses of the response, a bias over temperature takes up
+    let missed = |models: &[Model], share: f64| peak(models, input).map_or(0.0, |(peak, _)| share * peak.value);
+    let at_rest = || {
+        let with = |found: Estimate, error: f64| Estimate { sd: found.sd.hypot(error), ..found };
+        let coarse = settled(&span).map(|found| with(found, missed(&models, BETWEEN)));
+        let fine = finer.as_ref().filter(|_| is_borne_out).and_then(|Finer { model, slower, .. }| {
+            let [models, slower] = [model, slower].map(std::slice::from_ref);
+            let found = span(models).ok()?;
+            let change = if slow == Slow::By(0.0) { 0.0 } else { span(slower).ok()?.value - found.value };
+            Some(with(with(found, change), missed(models, WITHIN)))
+        });
+        coarse.map(|coarse| fine.filter(|fine| fine.sd < coarse.sd).unwrap_or(coarse))
+    };
+    let largest = || {
+        if matches!(slowest, Slowest::Beyond) {
+            // nor is the state known in which the record begins
+            return Err(Absent::Unsettled(watch));
+        }
+        let (found, row) = peak(&models, input)?;
+        // where the unit hardly settles, longer lags tell another one
+        let slower =
+            slower.as_ref().filter(|_| slow != Slow::By(0.0)).and_then(|model| model.sum(&model.design.thermal(row)).ok());
+        let change = slower.map_or(0.0, |slower| slower.value - found.value);
+        Ok((Estimate { sd: found.sd.hypot(change), ..found }, input.time[row]))
+    };
     let sensitivity = told(figures[0]);
     // a mean that is not told has no part that is
     let part = |of: Sum| told(of).and_then(|found| sensitivity.clone().map(|_| found));
@@ -197,17 +224,24 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
         cooling: part(figures[2]),
         asymmetry: if is_finer { fine(&Design::asymmetry) } else { settled(&|models| found(models, &Design::asymmetry)) },
         hysteresis: hysteresis(),
-        span: apart.clone().and_then(|()| settled(&span)),
+        span: apart.clone().and_then(|()| at_rest()),
         // what a slow response and a bias over temperature make together is known where they are not told apart
-        peak: if watch.short == Short::Seat { Ok(()) } else { apart }.and_then(|()| peak(&models, input)),
+        peak: if watch.short == Short::Seat { Ok(()) } else { apart }.and_then(|()| largest()),
         sensitivity,
         lags: sets.concat(),
         noise: models[0].noise.clone(),
     })
 }
 
+/// The model of all lags in one set, that of longer ones, and the change of the sensitivity between them.
+struct Finer {
+    model: Model,
+    slower: Model,
+    change: f64,
+}
+
 /// Change of the sensitivity by lags twice as long.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Slow {
     /// By a share of it that is no error any more: the record does not let the unit settle, unless it is seen to.
     Unsettled,
@@ -221,13 +255,13 @@ fn size(models: &[Model]) -> Option<f64> {
     Some(AMOUNT * mean.value.abs().max(mean.sd)).filter(|size| *size > 0.0)
 }
 
-/// The model of all `lags` in one set, with the change of its sensitivity by longer ones; `None` where that is not told, or changes by more than an error. Amounts
+/// The model of all `lags` in one set; `None` where the sensitivity is not told, or changes by more than an error. Amounts
 /// beside each other nearly cancel, so each is taken to be off their mean by a few times the sensitivity: `of` makes the model with that size.
-fn finer(models: &[Model], of: impl Fn(&[f64], f64) -> Result<Model, Absent>, lags: &[f64]) -> Option<(Model, f64)> {
+fn finer(models: &[Model], of: impl Fn(&[f64], f64) -> Result<Model, Absent>, lags: &[f64]) -> Option<Finer> {
     let size = size(models)?;
-    let (finer, slower) = (of(lags, size).ok()?, of(&lags::slower(lags), size).ok()?);
-    match slow(std::slice::from_ref(&finer), &slower) {
-        Slow::By(change) => Some((finer, change)),
+    let (model, slower) = (of(lags, size).ok()?, of(&lags::slower(lags), size).ok()?);
+    match slow(std::slice::from_ref(&model), &slower) {
+        Slow::By(change) => Some(Finer { model, slower, change }),
         Slow::Unsettled => None,
     }
 }
@@ -249,8 +283,10 @@ fn slow(models: &[Model], slower: &Model) -> Slow {
 /// Errors of the sets by which the finer one may differ from them.
 const AGREES: f64 = 2.576;
 /// Error of a set whose time constants are halves of each other, as a share of the sensitivity (1σ): of coils it misses 0.2 to 1.8 % by what lies between, of
-/// two lags in a row 1 to 6 %. All lags in one set miss a tenth of a per cent or less.
+/// two lags in a row 1 to 6 %.
 const BETWEEN: f64 = 0.02;
+/// The same of all lags in one set.
+const WITHIN: f64 = 0.001;
 /// Largest error of that set beside the coarse ones' at which it is taken.
 const WORTH: f64 = 0.5;
 /// Amount of a lag less the mean of all in that set (1σ), in sensitivities.
@@ -275,13 +311,13 @@ fn extremes(slope: f64, curvature: f64) -> [f64; 2] {
     [places[0], places[2]]
 }
 
-/// The row in which the temperature does most.
-fn peak(models: &[Model], input: &Input) -> Result<(Estimate, f64), Absent> {
+/// The most that the temperature does, and its row.
+fn peak(models: &[Model], input: &Input) -> Result<(Estimate, usize), Absent> {
     let (design, amounts) = (&models[0].design, models[0].amounts());
     let bias = |row: usize| design.thermal(row).iter().map(|(number, weight)| weight * amounts[*number]).sum::<f64>().abs();
     let rows = (0..input.time.len()).filter(|&row| input.mask[row]);
     let (row, _) = rows.map(|row| (row, bias(row))).max_by(|a, b| a.1.total_cmp(&b.1)).ok_or(Absent::Indistinct)?;
-    Ok((over(models, |model| model.sum(&model.design.thermal(row)))?, input.time[row]))
+    Ok((over(models, |model| model.sum(&model.design.thermal(row)))?, row))
 }
 
 fn range(values: &[f64]) -> f64 {
