@@ -13,7 +13,7 @@ use crate::table::significant;
 const RATE_DELAY: &str = "delay of the rate's readings [s]";
 
 /// Standard deviations from the drawing from which a constant is worth a line.
-const MOVED: f64 = 1.0;
+pub(super) const MOVED: f64 = 1.0;
 
 /// The same from which an instrument is not believed, and a constant that stands for a mechanism is worth a line.
 pub(super) const FAR: f64 = 3.0;

@@ -3,7 +3,7 @@
 use diagnosis::{Estimate, Place, Role, Settings, Verdict};
 
 use super::Outcome;
-use super::constants::FAR;
+use super::constants::{FAR, MOVED};
 use crate::table::significant;
 use crate::units::parameter_unit;
 
@@ -40,7 +40,7 @@ impl Outcome<'_> {
         })
     }
 
-    /// The constants that would have to lie far off the drawing if no mechanism took part, unless that is excluded.
+    /// The constants that would have to lie far off the drawing if no mechanism took part, or the one that would lie farthest, unless that is excluded.
     fn instead(&self) -> Option<String> {
         let candidates = &self.diagnosis.candidates;
         let alone = candidates.iter().find(|candidate| candidate.is_constants_alone())?;
@@ -49,9 +49,14 @@ impl Outcome<'_> {
         if alone.probability < Settings::default().excluded * most {
             return None;
         }
-        let all = alone.fit.posteriors(&self.gyro);
-        let far = all.iter().filter(|p| p.place == Place::Nominal(Role::Constant) && p.u.abs() > FAR);
-        let said: Vec<String> = far
+        let mut moved: Vec<_> =
+            alone.fit.posteriors(&self.gyro).into_iter().filter(|p| p.place == Place::Nominal(Role::Constant)).collect();
+        moved.sort_by(|a, b| b.u.abs().total_cmp(&a.u.abs()));
+        let far = moved.iter().filter(|p| p.u.abs() > FAR).count();
+        let said: Vec<String> = moved
+            .iter()
+            .take(far.max(1))
+            .filter(|p| p.u.abs() > MOVED)
             .map(|p| {
                 let unit = parameter_unit(&p.name);
                 let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
@@ -59,7 +64,10 @@ impl Outcome<'_> {
                 format!("{} {value}{unit} for {drawn} ({:+.1} standard deviations of its tolerance)", p.name, p.u)
             })
             .collect();
-        (!said.is_empty()).then(|| format!("If nothing but constants differed, these would be: {}.", said.join("; ")))
+        let would = if said.len() > 1 { "these would be" } else { "the farthest from the drawing would be" };
+        (!said.is_empty()).then(|| {
+            format!("If nothing but constants differed (probability {:.3}), {would}: {}.", alone.probability, said.join("; "))
+        })
     }
 }
 

@@ -17,6 +17,9 @@ use crate::units::parameter_unit;
 /// Probability from which the design is said to suffice without more words.
 const LIKELY: f64 = 0.65;
 
+/// The same from which nothing is said of what may hide behind it.
+const SURE: f64 = 0.9;
+
 /// Standard deviations from which a constant that moved is worth a word beside a mechanism that would do the same.
 const MUCH: f64 = 2.0;
 
@@ -392,26 +395,27 @@ impl Outcome<'_> {
             Verdict::Explained => {
                 format!("inspect the unit; to confirm {} on data outside the fit, {another}.", self.told_names().join(" and "))
             }
-            Verdict::None | Verdict::Recalibrate if !self.runners_up().is_empty() => {
-                let runners = self.runners_up();
-                let told = |(id, probability, inspection): &(&str, f64, &str)| format!("{id} (probability {probability:.2}): {inspection}");
-                let all = runners.iter().map(told).collect::<Vec<_>>().join("; ");
-                let [are, cheapest] = if runners.len() > 1 { ["Not far behind are", "the inspection that costs least"] } else { ["Not far behind is", "this"] };
+            Verdict::None | Verdict::Recalibrate if self.is_close() => {
+                let foremost = self.foremost();
+                let [are, cheapest] = if foremost.len() > 1 { ["Not far behind are", "the inspection that costs least"] } else { ["Not far behind is", "this"] };
                 let far = self.moved().first().and_then(far).map_or(String::new(), |far| format!("; {far}"));
                 format!(
-                    "{are} {all}{far}. To decide, begin with {cheapest}; or give a record under another profile with --fit{}.",
+                    "{are} {}{far}. To decide, begin with {cheapest}; or give a record under another profile with --fit{}.",
+                    foremost.join("; "),
                     self.or_lot()
                 )
             }
             Verdict::None | Verdict::Recalibrate if !self.suffices_surely() => {
                 format!(
-                    "nothing stands out that an inspection could look for; a small fault may hide behind the tolerances. A record under another \
-                     profile, given with --fit{} may narrow them.",
+                    "a small fault may hide behind the tolerances{}. A record under another profile, given with --fit{} may narrow them.",
+                    self.hidden(),
                     self.or_lot()
                 )
             }
             Verdict::Recalibrate if proven => {
-                "no further test is called for: the re-estimated constants predict a record that was held out.".into()
+                let hidden = self.hidden();
+                let hidden = if hidden.is_empty() { hidden } else { format!(" A fault that is smaller than their tolerances may still hide behind them{hidden}.") };
+                format!("the re-estimated constants predict a record that was held out, so no further test is called for.{hidden}")
             }
             Verdict::Recalibrate => format!("to confirm the re-estimated constants, {another}."),
             Verdict::Unknown if self.law().is_some() => {
@@ -458,19 +462,33 @@ impl Outcome<'_> {
         (constants && probability > none + recalibrate).then(|| (self.id(first), inspection))
     }
 
-    /// Mechanisms that are not far behind, where one is at least half as likely as that the design suffices: that one and those half as likely, with their
-    /// probabilities and the checks that decide about them.
-    fn runners_up(&self) -> Vec<(&str, f64, &str)> {
+    /// Whether a mechanism is at least half as likely as that the design suffices.
+    fn is_close(&self) -> bool {
         let [none, recalibrate, ..] = self.diagnosis.verdicts();
         let first = self.diagnosis.mechanisms.first().map_or(0.0, |(_, probability)| *probability);
-        let all = self
-            .diagnosis
-            .mechanisms
-            .iter()
-            .filter(|(_, probability)| 2.0 * first >= none + recalibrate && 2.0 * probability >= first);
-        let told =
-            all.filter_map(|&(m, probability)| Some((self.id(m), probability, self.gyro.mechanism(m).facts().inspection()?)));
+        2.0 * first >= none + recalibrate && !self.foremost().is_empty()
+    }
+
+    /// The likeliest mechanisms and those half as likely, each with its probability and the check that decides about it.
+    fn foremost(&self) -> Vec<String> {
+        let first = self.diagnosis.mechanisms.first().map_or(0.0, |(_, probability)| *probability);
+        let all = self.diagnosis.mechanisms.iter().filter(|(_, probability)| 2.0 * probability >= first);
+        let told = all.filter_map(|&(m, probability)| {
+            let inspection = self.gyro.mechanism(m).facts().inspection()?;
+            Some(format!("{} (probability {probability:.2}): {inspection}", self.id(m)))
+        });
         told.take(MOST).collect()
+    }
+
+    /// The likeliest mechanisms as the end of a sentence on what may hide, where the design does not suffice nearly surely.
+    fn hidden(&self) -> String {
+        let [none, recalibrate, ..] = self.diagnosis.verdicts();
+        let foremost = self.foremost();
+        if none + recalibrate > SURE || foremost.is_empty() {
+            String::new()
+        } else {
+            format!(", most likely {}", foremost.join("; or "))
+        }
     }
 
     /// Whether the design, or its constants, suffice for all records, and likely so.

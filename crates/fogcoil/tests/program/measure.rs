@@ -287,10 +287,7 @@ fn what_cannot_be_measured_is_said() {
 fn a_simulated_coil_has_no_bias_over_temperature() {
     let folder = Folder::new();
     let flanged = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/designs/flanged.ron");
-    folder.write(
-        "p.csv",
-        "time_s,chamber_c\n0,20\n1800,20\n5400,-40\n11000,-40\n17600,70\n24000,70\n27000,20\n40320,20\n",
-    );
+    folder.write("p.csv", "time_s,chamber_c\n0,20\n1800,20\n5400,-40\n11000,-40\n17600,70\n24000,70\n27000,20\n40320,20\n");
     let simulated = ["simulate", flanged, "--profile", "p.csv", "--step", "60", "--out", "r.csv", "--quiet"];
     assert_eq!(folder.run(&simulated).status.code(), Some(0));
     let found = json(&folder, &["measure", "r.csv", "--json"]);
