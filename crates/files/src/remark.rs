@@ -270,7 +270,7 @@ remarks! {
         "Noise and slow effects cannot be told from one another, or nothing can be said.",
         "Give a longer recording.";
     Offset "offset":
-        "The median rate is larger than a gyroscope's bias; the Earth's rate would explain it, or even that does not, as the message says.",
+        "The median rate is larger than a gyroscope's bias, or differs by more than that from the Earth's rate of the meta file; the Earth's rate would explain it, or even that does not, as the message says.",
         "The offset is fitted; a model's absolute bias is not tested.",
         "Subtract the Earth's rate along the axis (15.04 deg/h times the sine of the latitude for a vertical one), or accept it; \
          beyond 15.04 deg/h check unit and scale.";
