@@ -37,9 +37,10 @@ fn table(title: &str, panel: &Panel, shared: &str) -> Markup {
 
 /// Series that share their x in one table.
 fn lines(name: &str, y: &str, x: &str, series: &[Series]) -> Markup {
-    let mut groups = Vec::new();
     // a single point marks one of another series, a guide has no data
-    let mut rest: Vec<&Series> = series.iter().filter(|s| s.count > 1 && s.style != Style::Guide).collect();
+    let shown = series.iter().filter(|s| s.count > 1 && s.style != Style::Guide);
+    let (upright, mut rest): (Vec<&Series>, Vec<&Series>) = shown.partition(|s| is_upright(s));
+    let mut groups = Vec::new();
     while let Some(first) = rest.first() {
         let alike = |s: &&Series| s.count == first.count && (0..s.count).all(|n| (s.at)(n).0.total_cmp(&(first.at)(n).0).is_eq());
         let (group, others): (Vec<&Series>, Vec<&Series>) = rest.iter().partition(|s| alike(s));
@@ -69,7 +70,16 @@ fn lines(name: &str, y: &str, x: &str, series: &[Series]) -> Markup {
         groups.push(grid(&format!("{name}: {y}{which}"), Cells::Numbers, &head, &rows));
         rest = others;
     }
+    if !upright.is_empty() {
+        let rows: Vec<Vec<String>> = upright.iter().map(|s| [(s.at)(0).0, (s.at)(0).1, (s.at)(1).1].map(number).into()).collect();
+        groups.push(grid(&format!("{name}: {y}, upright lines"), Cells::Numbers, &[x, "from", "to"], &rows));
+    }
     html! { @for group in groups { (group) } }
+}
+
+/// Whether it is a line without a name from one value to another at the same place.
+fn is_upright(series: &Series) -> bool {
+    series.name.is_empty() && series.count == 2 && (series.at)(0).0.total_cmp(&(series.at)(1).0).is_eq()
 }
 
 /// A row for each name, a column for each series.
@@ -121,5 +131,26 @@ fn number(value: f64) -> String {
         v if !v.is_finite() => String::new(),
         v if v.fract() == 0.0 && v.abs() < 1e6 => format!("{v:.0}"),
         v => significant(v, 4),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Intervals of units stand in one table, which names their ends.
+    #[test]
+    fn exact_upright_lines_are_rows_of_one_table() {
+        let upright = |x: f64, low: f64, high: f64| Series::new("", Style::Fine(2), vec![(x, low), (x, high)]);
+        let points = Series::new("passes", Style::Points(0), vec![(7.0, 2.0), (8.0, 3.0)]);
+        let page = lines("Trend", "sensitivity", "serial number", &[upright(7.0, 1.5, 2.5), upright(8.0, 2.5, 3.5), points]);
+        let upright = grid(
+            "Trend: sensitivity, upright lines",
+            Cells::Numbers,
+            &["serial number", "from", "to"],
+            &[["7", "1.500", "2.500"], ["8", "2.500", "3.500"]].map(|row| row.map(str::to_owned).into()),
+        );
+        let page = page.into_string();
+        assert!(page.matches("<table").count() == 2 && page.contains(&upright.into_string()), "{page}");
     }
 }

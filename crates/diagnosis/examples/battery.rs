@@ -16,6 +16,7 @@ use real::shapes::Shape;
 use real::study::{BREADTH, Records, Told, study};
 use real::{load, picture, report};
 use std::error::Error;
+use std::process::ExitCode;
 
 /// Capacity of both cells, as their slow discharges give it \[Ah\].
 const CAPACITY: f64 = 2.58;
@@ -30,7 +31,11 @@ const TESTS: [(&str, &str); 8] = [
     ("R2", "two_c"),
 ];
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    real::told(run())
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().nth(1).ok_or("usage: battery FOLDER")?;
     let tests = TESTS.iter().map(|(cell, name)| load::cell(&folder, cell, name)).collect::<Result<Vec<_>, _>>()?;
     let names: Vec<String> = TESTS.iter().map(|(cell, name)| format!("{cell} {name}")).collect();

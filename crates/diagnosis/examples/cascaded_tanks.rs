@@ -19,8 +19,13 @@ use real::shapes::Shape;
 use real::study::{BREADTH, Records, Told, study};
 use real::{picture, report, table};
 use std::error::Error;
+use std::process::ExitCode;
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    real::told(run())
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).ok_or("usage: cascaded_tanks PATH")?;
     let columns = table::read(&path, ',', &["uEst", "uVal", "yEst", "yVal", "Ts"])?;
     let [u, u_held, y, y_held, ts] = <[Vec<f64>; 5]>::try_from(columns).map_err(|_| "five columns")?;

@@ -18,11 +18,16 @@ use real::shapes::Shape;
 use real::study::{BREADTH, Records, Told, study, versus};
 use real::{load, picture, report};
 use std::error::Error;
+use std::process::ExitCode;
 
 /// Tests that may be made next, as long as the recorded one.
 const NEXT: [&str; 3] = ["the same cooling", "a warming from the cold", "a cooling and a warming in the same time"];
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    real::told(run())
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).ok_or("usage: cold_chamber PATH")?;
     let load::Rates { time, temperature, rates } = load::cold_chamber(&path)?;
     let cut = time.len() * 2 / 3 / 5 * 5;

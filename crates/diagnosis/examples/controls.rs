@@ -20,6 +20,7 @@ use real::plant::Plant;
 use real::rate_sensor::RateSensor;
 use real::study::{BREADTH, Records, composed};
 use std::error::Error;
+use std::process::ExitCode;
 
 type Control = fn(&[f64], u64) -> Vec<f64>;
 const CONTROLS: [(&str, Control); 2] = [("shuffled", shuffled), ("noise of the same spectrum", surrogate)];
@@ -28,7 +29,11 @@ const CAPACITY: f64 = 2.58;
 /// Between the seeds of one draw's records.
 const APART: u64 = 1000;
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    real::told(run())
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let folder = arguments.next().ok_or("usage: controls FOLDER [DRAWS]")?;
     let draws: u64 = arguments.next().map_or(Ok(30), |n| n.parse())?;

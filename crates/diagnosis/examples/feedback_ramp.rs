@@ -21,13 +21,18 @@ use real::shapes::Shape;
 use real::study::{BREADTH, Records, Told, study};
 use real::{picture, report, table};
 use std::error::Error;
+use std::process::ExitCode;
 
 /// Counts in a cycle of the ramp.
 const CYCLE: f64 = 32_768.0;
 /// The Earth's rate [nrad/s].
 const EARTH: f64 = 72_921.15;
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    real::told(run())
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().nth(1).ok_or("usage: feedback_ramp FOLDER")?;
     let names = ["time_s", "HJ1_nrad_per_s", "HJ2_nrad_per_s", "HJ3_nrad_per_s", "YR1", "YR2", "YR3"];
     let columns = table::read(&format!("{folder}/three_axes_60s.csv"), ',', &names)?;

@@ -22,6 +22,7 @@ use real::shapes::Shape;
 use real::study::{BREADTH, Records, Told, study, versus};
 use real::{load, picture, report};
 use std::error::Error;
+use std::process::ExitCode;
 use thermal::{RATE_AND_TIME, Thermal, plain};
 
 /// Size of thermal effects of such sensors [rad/s], far below which least squares are free.
@@ -48,7 +49,11 @@ fn popular(time: &[f64], temperature: &[f64], rate: &[f64], cut: usize) -> Resul
 
 const FITTED: f64 = 0.75;
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    real::told(run())
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let path = arguments.next().ok_or("usage: imu_thermal_cycle PATH [COLUMN...]")?;
     let mut columns: Vec<String> = arguments.take_while(|a| a != "--pictures").collect();

@@ -17,11 +17,16 @@ use real::shapes::Shape;
 use real::study::{BREADTH, Records, Told, study, versus};
 use real::{load, picture, report};
 use std::error::Error;
+use std::process::ExitCode;
 
 /// The part that is fitted \[s\].
 const FITTED_S: f64 = 350.0;
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    real::told(run())
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).ok_or("usage: two_heaters PATH")?;
     let recorded = load::heaters(&path)?;
     let cut = recorded.time.partition_point(|t| *t < FITTED_S);

@@ -42,7 +42,7 @@ remarks! {
     UnfilledCoil "unfilled-coil":
         "The coil's rectangle (`coil.outer_radius_mm`, `coil.height_mm`) is larger than the winding in it: by more than a pitch in radius, or a tenth of one in height.",
         "Heat flow and stiffness are those of the rectangle, all of it winding; the Sagnac diameter, unless given, is the mean one of the turns alone where the room in radius is more than a pitch. Turns begin at the left face: room at the right changes the sensitivity.",
-        "Check layers, turns and `pitch_mm` against the drawing, or reduce the rectangle to the winding.";
+        "Check layers, turns and `pitch_mm` against the drawing, or reduce the rectangle to the winding. A coil that is potted beyond its turns on purpose needs no change in radius: ignore the warning; in height, give `winding.start_mm` and `end_mm`.";
     OtherSpacing "other-spacing":
         "`winding.start_mm` and `end_mm` set the turns of a layer more than 3 % closer or farther apart than `pitch_mm`.",
         "Closer turns than a pitch do not fit between the ends; farther ones leave gaps of adhesive. The sensitivity follows the ends: some per cent for a tenth of a turn.",
@@ -270,7 +270,7 @@ remarks! {
         "Noise and slow effects cannot be told from one another, or nothing can be said.",
         "Give a longer recording.";
     Offset "offset":
-        "The median rate is larger than a gyroscope's bias; the Earth's rate would explain it, or even that does not, as the message says.",
+        "The median rate is larger than a gyroscope's bias, or differs by more than that from the Earth's rate of the meta file; the Earth's rate would explain it, or even that does not, as the message says.",
         "The offset is fitted; a model's absolute bias is not tested.",
         "Subtract the Earth's rate along the axis (15.04 deg/h times the sine of the latitude for a vertical one), or accept it; \
          beyond 15.04 deg/h check unit and scale.";

@@ -15,10 +15,10 @@ pub(crate) struct Explain {
     /// either all ids are listed
     #[arg(value_name = "ID|COIL.ron", required_if_eq("signed", "true"))]
     subject: Option<PathBuf>,
-    /// Measured steady sensitivity in (deg/h)/(degC/min), a magnitude
+    /// Measured steady sensitivity in (deg/h)/(degC/min): a magnitude, or negative, with the sign of this program's conventions
     #[arg(long, value_name = "S", allow_negative_numbers = true, requires = "subject")]
     sensitivity: Option<f64>,
-    /// The measured sensitivity's sign is that of this program's conventions
+    /// A positive sensitivity is no magnitude, but has the sign of this program's conventions, too
     #[arg(long, requires = "sensitivity")]
     signed: bool,
     /// Print one JSON object

@@ -222,6 +222,7 @@ pub fn json(simulation: &Simulation) -> Value {
             "eo_axial_deg_per_h": peak.eo_axial,
             "eo_radial_deg_per_h": peak.eo_radial,
             "read_out_deg_per_h": peak.read_out + 0.0,
+            "mechanisms_deg_per_h": peak.mechanisms,
             "rate_deg_per_h": peak.rate,
         },
         "rms_deg_per_h": rms,

@@ -1,12 +1,13 @@
 //! A logger's table, from a file or the small one below: what is wrong with it, its noise, and its Allan deviation. The first column holds
 //! instants \[s\], the others means of rates since the row before.
 
-#![allow(clippy::print_stdout, reason = "the example is a program")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "the example is a program")]
 
 use recording::allan::allan;
 use recording::check::{Expectations, check};
 use recording::noise::{Bounds, Series, identify};
 use recording::{Channel, Error, Recording, Sampling, Seconds, median_interval};
+use std::process::ExitCode;
 
 /// A recording from a header of names and rows of numbers; what is no number is missing.
 fn read(text: &str, unit: &str) -> Result<Recording, Error> {
@@ -66,7 +67,13 @@ fn report(recording: &Recording) -> Result<f64, Error> {
     Ok(white)
 }
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> ExitCode {
+    let Err(error) = run() else { return ExitCode::SUCCESS };
+    eprintln!("error: {error}");
+    ExitCode::FAILURE
+}
+
+fn run() -> Result<(), Box<dyn std::error::Error>> {
     if let Some(path) = std::env::args().nth(1) {
         report(&read(&std::fs::read_to_string(path)?, "u")?)?;
         return Ok(());

@@ -62,7 +62,7 @@ def explain(
 ) -> Result:
     """The meaning of an id of a mechanism or a warning, or of a file of a mechanism of your own; without a ``subject``, of all ids.
 
-    With a measured ``sensitivity`` [(deg/h)/(degC/min)] ``subject`` is a coil: which change would give it. It is a magnitude unless ``signed``.
+    With a measured ``sensitivity`` [(deg/h)/(degC/min)] ``subject`` is a coil: which change would give it. It is a magnitude unless it is negative, or ``signed``.
     """
     if sensitivity is not None and subject is not None:
         code = CODE if cache else None

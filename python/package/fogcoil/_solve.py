@@ -107,8 +107,8 @@ def trim(
 
 class Simulation(Columns):
     """Columns in time: ``time_s``, ``chamber_c``, ``spool_c``, and the bias ``shupe_deg_per_h``, ``eo_axial_deg_per_h``,
-    ``eo_radial_deg_per_h``, ``rate_deg_per_h`` (their sum, with the read-out's drift), means since the row before; ``summary`` has
-    error estimates. ``table`` is a DataFrame."""
+    ``eo_radial_deg_per_h``, of a design whose read-out drifts ``read_out_deg_per_h``, with mechanisms ``mechanisms_deg_per_h``, and
+    ``rate_deg_per_h`` (their sum), means since the row before; ``summary`` has error estimates. ``table`` is a DataFrame."""
 
 
 def simulate(

@@ -24,12 +24,13 @@ pub(super) const DRIVES: [(&str, Drive); 5] = [
 ];
 
 /// Columns of recordings and of this program's own results; a profile may have them, and they drive nothing.
-pub(super) const RESULTS: [&str; 8] = [
+pub(super) const RESULTS: [&str; 9] = [
     "spool_c",
     "shupe_deg_per_h",
     "eo_axial_deg_per_h",
     "eo_radial_deg_per_h",
     "rate_deg_per_h",
+    "read_out_deg_per_h",
     "mechanisms_deg_per_h",
     "recorded_spool_c",
     "recorded_rate_deg_per_h",

@@ -69,7 +69,7 @@ pub(super) fn expectations(recording: &Recording, format: &RecordFormat, has_dat
                 known: earth,
                 largest: OFFSET_DEG_PER_H,
                 explained: OFFSET_DEG_PER_H,
-                of: format!("Earth's rate, {earth:.2} deg/h by the meta file, with the other sign"),
+                of: format!("Earth's rate, {earth:.2} deg/h by the meta file"),
             },
             None => Offset {
                 known: 0.0,

@@ -43,7 +43,7 @@ pub(crate) fn explain(error: &Error, rest: &str) -> (String, String) {
         Error::ExpectedComma | Error::ExpectedArrayEnd => ("a comma or a closing bracket is missing", "add it before this point"),
         Error::ExpectedFloat => ("a number is needed", "write it like 1.5 or 1.5e-6, without quotes or unit"),
         Error::ExpectedInteger | Error::IntegerOutOfBounds | Error::InvalidIntegerDigit { .. } => {
-            ("a whole number, 0 or more, is needed", "write it like 36")
+            ("a whole number without a sign is needed", "write it like 36")
         }
         Error::ExpectedBoolean => ("`true` or `false` is needed", "write one of them"),
         Error::ExpectedString => ("a text is needed", "write it in double quotes"),

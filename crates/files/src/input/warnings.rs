@@ -45,13 +45,14 @@ pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> V
     let mut unfilled = |what: &str, field: &str, room: f64, body: f64, winding: f64, meaning: &str| {
         if body > winding + room * pitch {
             let (body, winding) = (to_mm(body), to_mm(winding));
-            let message =
-                format!("{field}: the coil {what} {body:.4} mm, but its turns end at {winding:.4} mm{meaning}; is this meant?");
+            let message = format!("{field}: the coil {what} {body:.4} mm, but its turns end at {winding:.4} mm{meaning}");
             found.push(Remark::UnfilledCoil.warning(message));
         }
     };
-    let at_left = ": they begin at the left face, and the sensitivity depends on that; give winding.start_mm and end_mm";
-    unfilled("reaches to", "coil.outer_radius_mm", ROOM, body.outer_radius, winding.outer_radius(), "");
+    let at_left =
+        ": they begin at the left face, and the sensitivity depends on that; give winding.start_mm and end_mm; is this meant?";
+    let potted = "; is this meant? A coil that is potted beyond its turns on purpose needs no change: ignore this warning";
+    unfilled("reaches to", "coil.outer_radius_mm", ROOM, body.outer_radius, winding.outer_radius(), potted);
     if design.winding.start == 0.0 && design.winding.end.is_none() {
         unfilled("is as high as", "coil.height_mm", AXIAL_ROOM, body.height, winding.height(), at_left);
     }

@@ -58,8 +58,8 @@ pub struct Outcome<'m> {
     gyro: Gyro<'m>,
     /// about the drawing
     library: Library,
-    /// the next test, in a sentence, once it was worked out
-    sought: OnceLock<String>,
+    /// the next test, in a sentence, and whether one tells apart what it should, once it was worked out
+    sought: OnceLock<(String, bool)>,
     /// what it was asked for
     mechanisms: Vec<&'m dyn Mechanism>,
     /// ids of those that nobody asked for: each is a column's

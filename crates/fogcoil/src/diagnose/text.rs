@@ -539,8 +539,17 @@ impl Outcome<'_> {
             [other, nominal] if nominal == NOMINAL => format!("a test that shows whether {other} is at work, too"),
             _ => "a test that separates them".to_owned(),
         };
-        let found = self.sought.get().map_or(String::new(), |found| format!("\n  It finds: {found}"));
-        Some(format!("{first}These records do not exclude: {others}. This seeks {sought}: {command}{found}"))
+        let next = next_test(&sought, &command, self.sought.get());
+        Some(format!("{first}These records do not exclude: {others}. {next}"))
+    }
+}
+
+/// The command that seeks a test, with what it finds; what it finds alone where no test separates.
+fn next_test(sought: &str, command: &str, found: Option<&(String, bool)>) -> String {
+    match found {
+        None => format!("This seeks {sought}: {command}"),
+        Some((said, true)) => format!("This seeks {sought}: {command}\n  It finds: {said}"),
+        Some((said, false)) => said.clone(),
     }
 }
 
@@ -557,4 +566,17 @@ pub(super) fn place(stage: &str, extent: &Extent) -> String {
         let _ = write!(place, ", from {} to {} h", significant(from / S_PER_H, 3), significant(to / S_PER_H, 3));
     }
     place
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_test_that_is_known_not_to_separate_is_not_sought() {
+        let next = |found: Option<(String, bool)>| next_test("a test", "fogcoil recommend", found.as_ref());
+        assert_eq!(next(None), "This seeks a test: fogcoil recommend");
+        assert_eq!(next(Some(("A ramp.".into(), true))), "This seeks a test: fogcoil recommend\n  It finds: A ramp.");
+        assert_eq!(next(Some(("No profile.".into(), false))), "No profile.");
+    }
 }

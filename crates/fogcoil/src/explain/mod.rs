@@ -44,7 +44,7 @@ pub struct Explained {
     pub tests: Vec<Test>,
 }
 
-/// Explains a measured sensitivity, (deg/h)/(degC/min); without a sign (`magnitude`) it is taken with that of the design.
+/// Explains a measured sensitivity, (deg/h)/(degC/min); a positive one without a sign (`magnitude`) is taken with that of the design.
 ///
 /// # Errors
 /// [`files::Error::Usage`] for a sensitivity that is not a number; [`files::Error::Coil`] if the design cannot be modelled.
@@ -55,12 +55,10 @@ pub fn explain(
     cache: &Cache,
     progress: &(dyn Fn(Step) + Sync),
 ) -> Result<Explained, Error> {
-    if !measured.is_finite() || measured.abs() > MOST || (magnitude && measured < 0.0) {
-        let text = format!(
-            "--sensitivity {measured}: give a magnitude up to {MOST} (deg/h)/(degC/min), or a signed value with --signed"
-        );
-        return Err(Error::usage(text));
+    if !measured.is_finite() || measured.abs() > MOST {
+        return Err(Error::usage(format!("--sensitivity {measured}: give a magnitude up to {MOST} (deg/h)/(degC/min)")));
     }
+    let magnitude = magnitude && measured >= 0.0;
     let coil = Error::of_coil(&case.file);
     let steady = case.steady_sensitivity()?;
     let nominal = steady.sensitivity.total();

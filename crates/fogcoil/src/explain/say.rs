@@ -68,7 +68,7 @@ fn row(x: &Explanation) -> Option<Vec<String>> {
 
 /// The explanations as text.
 pub fn text(case: &CoilCase, e: &Explained) -> String {
-    let sign = if e.magnitude { " (a magnitude, taken with the design's sign; --signed keeps a sign)" } else { "" };
+    let sign = if e.magnitude { " (a magnitude, taken with the design's sign; --signed takes it with its own)" } else { "" };
     let mut out = format!(
         "{}: measured {:.3}{sign}, the design gives {:.3} ± {} (deg/h)/(degC/min)\n\n",
         case.name,

@@ -43,7 +43,7 @@ fn prior(prior: &Prior) -> String {
     }
 }
 
-/// One object, as of a mechanism of the program; see docs/schema/explain.schema.json.
+/// One object, as of a mechanism of the program; see docs/schema/glossary.schema.json.
 pub fn own_json(case: &MechanismCase) -> Value {
     let facts = case.mechanism.facts();
     let parameter = |parameter: &Parameter| json!({"parameter": parameter.name, "unit": parameter_unit(&parameter.name), "prior": prior(&parameter.prior)});

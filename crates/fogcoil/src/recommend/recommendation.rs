@@ -55,3 +55,10 @@ pub struct Recommendation {
     /// Expected course of the best programme.
     pub course: Course,
 }
+
+impl Recommendation {
+    /// Whether the best programme, or the repeated test, is expected to tell apart what it should.
+    pub(crate) fn separates(&self) -> bool {
+        self.profiles[0].odds.decides() || self.repeat.1.decides()
+    }
+}

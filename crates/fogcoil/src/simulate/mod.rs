@@ -161,11 +161,14 @@ impl Simulation<'_> {
 
     /// Names of the result's columns, and the value of each in a row.
     fn columns(&self) -> impl Iterator<Item = Column> {
+        const READ_OUT: Column = ("read_out_deg_per_h", |row| row.read_out);
         const OWN: Column = ("mechanisms_deg_per_h", |row| row.mechanisms);
         const RECORDED: [Column; 2] =
             [("recorded_spool_c", |row| row.recorded[0]), ("recorded_rate_deg_per_h", |row| row.recorded[1])];
+        let read_out = (self.case.design.drifts.read_out != 0.0).then_some(READ_OUT);
+        let own = (!self.added.is_empty()).then_some(OWN);
         let recorded = self.profile.recorded.iter().flat_map(|_| RECORDED);
-        COLUMNS.into_iter().chain((!self.added.is_empty()).then_some(OWN)).chain(recorded)
+        COLUMNS.into_iter().chain(read_out).chain(own).chain(recorded)
     }
 
     /// The result as a table.

@@ -39,7 +39,7 @@ pub struct SimulatedRow {
     pub eo_axial: f64,
     /// Radial strain \[deg/h\].
     pub eo_radial: f64,
-    /// The read-out's own drift with temperature \[deg/h\]; not a column of the result.
+    /// The read-out's own drift with temperature \[deg/h\]; a column of the result where the design has one.
     pub read_out: f64,
     /// Contribution of a user's own mechanisms \[deg/h\]; a column of the result where there are any.
     pub mechanisms: f64,

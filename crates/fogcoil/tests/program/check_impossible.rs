@@ -209,8 +209,9 @@ fn an_offset_of_the_earths_rate_that_is_told_is_not_noted() {
     let folder = Folder::new();
     folder.write("meta.ron", "(rate_deg_per_h: (latitude_deg: Some(48.1), elevation_deg: Some(90.0)))");
     let opposite = ": perhaps Earth's rate, 11.20 deg/h by the meta file, with the other sign";
-    let not_that = ", which this does not explain: Earth's rate, 11.20 deg/h by the meta file, with the other sign";
-    for (offset, says) in [(11.2, ""), (0.0, ""), (-11.2, opposite), (6.0, not_that), (-13.2, not_that)] {
+    let [below, half, beyond] =
+        ["-0.6", "-5.0", "-24.2"].map(|by| format!("differs from Earth's rate, 11.20 deg/h by the meta file, by {by}"));
+    for (offset, says) in [(11.2, ""), (0.0, ""), (-11.2, opposite), (10.35, &below), (5.95, &half), (-13.25, &beyond)] {
         let path = folder.write("r.csv", record(|_, [c, s, r]| written([c, s, r + offset])));
         let case = read_record(&path, &RecordOptions::default()).expect("a record");
         let told = findings(&case);

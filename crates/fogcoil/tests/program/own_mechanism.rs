@@ -47,6 +47,10 @@ fn a_mechanism_with_values_is_added_to_a_simulation() {
         assert_eq!(with[..6], without[..6], "nothing else changes");
         assert!((with[6] - without[6] - with[7]).abs() < 1e-12);
     }
+    let json: serde_json::Value = serde_json::from_str(&stdout(&folder.run(&[&own[..], &["--json"]].concat()))).unwrap();
+    let mut parts: std::collections::BTreeMap<String, f64> = serde_json::from_value(json["peak"].clone()).unwrap();
+    let [_, rate] = ["time_s", "rate_deg_per_h"].map(|key| parts.remove(key).unwrap());
+    assert!(parts["mechanisms_deg_per_h"] > 0.005 && (parts.values().sum::<f64>() - rate).abs() < 1e-12, "{json}");
     // the board, followed by hand, the spool being linear between rows
     let (mut behind, mut before) = (0.0, 0.0);
     for pair in with.windows(2) {

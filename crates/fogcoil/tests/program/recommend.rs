@@ -127,6 +127,10 @@ fn the_paper_s_second_coil_is_explained_by_a_tail_and_hardly_by_its_constants() 
     assert!((s["total"].as_f64().unwrap() + 1.39).abs() < 0.003, "{s}");
     let text = stdout(&folder.run(&["explain", "coil.ron", "--sensitivity", "1.39", "--quiet"]));
     assert!(text.contains("compensated-rate: it is of the electronics") && !text.contains("()"), "{text}");
-    let output = folder.run(&["explain", "coil.ron", "--sensitivity", "-1.0"]);
-    assert!(output.status.code() == Some(2) && stderr(&output).contains("--signed"), "{}", stderr(&output));
+    // a negative number has a sign, with and without the word
+    let [alone, signed] = [&[][..], &["--signed"]].map(|word| {
+        let command = ["explain", "coil.ron", "--sensitivity", "-1.0", "--json", "--quiet"];
+        json(&folder, &[&command[..], word].concat(), "explain")
+    });
+    assert!(alone == signed && alone["sensitivity"] == -1.0 && alone["taken_as_magnitude"] == false, "{alone}");
 }

@@ -445,6 +445,15 @@ fn the_read_out_s_drift_is_named_and_the_parts_add_up() {
     let parts = of("shupe_deg_per_h") + of("eo_axial_deg_per_h") + of("eo_radial_deg_per_h");
     assert!(of("read_out_deg_per_h").abs() > 0.05);
     assert!((parts + of("read_out_deg_per_h") - of("rate_deg_per_h")).abs() < 1e-12);
+    let table = std::fs::read_to_string(folder.path("b.csv")).unwrap();
+    assert_eq!(table.lines().next(), Some(&*format!("{HEADER},read_out_deg_per_h")));
+    for line in table.lines().skip(1) {
+        let row: Vec<f64> = line.split(',').map(|field| field.parse().unwrap()).collect();
+        assert!((row[3] + row[4] + row[5] + row[7] - row[6]).abs() < 1e-12, "{line}");
+    }
+    // a profile may have the column, and it drives nothing
+    let again = folder.run(&["simulate", "coil.ron", "--profile", "b.csv", "--out", "c.csv"]);
+    assert!(again.status.code() == Some(0) && stderr(&again).contains("read_out_deg_per_h"), "{}", stderr(&again));
     let text = stdout(&folder.run(&["simulate", "coil.ron", "--profile", "p.csv", "--out", "b.csv", "--quiet"]));
     assert!(text.contains("read-out") && text.contains("the sum of the four"), "{text}");
 }

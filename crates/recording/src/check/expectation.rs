@@ -20,7 +20,7 @@ pub struct Offset {
     pub largest: f64,
     /// The most that what is known explains \[u\].
     pub explained: f64,
-    /// Its cause, e.g. "Earth rate not removed".
+    /// Its cause, e.g. "Earth rate not removed", or what is known.
     pub of: String,
 }
 

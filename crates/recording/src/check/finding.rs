@@ -138,11 +138,13 @@ pub enum FindingKind {
     Offset {
         /// Median \[u\].
         median: f64,
-        /// The most that is expected \[u\].
+        /// The offset that is known, 0 if there is none \[u\].
+        known: f64,
+        /// The most that is expected beside it \[u\].
         largest: f64,
-        /// The cause that would explain it.
+        /// The cause of what is known, or that would explain it.
         of: String,
-        /// Whether it would explain all of it.
+        /// Whether it, or the opposite of what is known, would explain all of it.
         is_explained: bool,
     },
 }
@@ -273,9 +275,15 @@ impl Finding {
             FindingKind::Constant(value) => write!(f, "is {} {unit} throughout", Short(*value)),
             FindingKind::Empty => write!(f, "has no value at all"),
             FindingKind::TooShort(rows) => write!(f, "too few rows, {rows}"),
-            FindingKind::Offset { median, largest, of, is_explained } => {
-                write!(f, "the median, {} {unit}, is more than {} {unit}", Short(*median), Short(*largest))?;
-                if *is_explained { write!(f, ": perhaps {of}") } else { write!(f, ", which this does not explain: {of}") }
+            FindingKind::Offset { median, known, largest, of, is_explained } => {
+                let most = Short(*largest);
+                write!(f, "the median, {} {unit}, ", Short(*median))?;
+                match (*known == 0.0, is_explained) {
+                    (true, true) => write!(f, "is more than {most} {unit}: perhaps {of}"),
+                    (true, false) => write!(f, "is more than {most} {unit}, which this does not explain: {of}"),
+                    (false, true) => write!(f, "is more than {most} {unit}: perhaps {of}, with the other sign"),
+                    (false, false) => write!(f, "differs from {of}, by {} {unit}", Short(median - known)),
+                }
             }
         }
     }
@@ -360,7 +368,8 @@ mod tests {
 
     #[test]
     fn an_offset_has_advice_by_what_explains_it() {
-        let of = |is_explained| FindingKind::Offset { median: 7.0, largest: 0.5, of: "Earth's rate".into(), is_explained };
+        let of =
+            |is_explained| FindingKind::Offset { median: 7.0, known: 0.0, largest: 0.5, of: "Earth's rate".into(), is_explained };
         let advice = |is_explained| Finding::whole(of(is_explained), Severity::Note).advice().into_owned();
         assert!(advice(true).starts_with("remove it") && advice(false).starts_with("check unit and scale"));
     }

@@ -58,7 +58,8 @@ pub(super) fn judge(summary: &ChannelSummary, course: &Course, expectation: &Exp
         // what is known explains its opposite alone
         let is_explained =
             if *known == 0.0 { summary.median.abs() <= *explained } else { (summary.median + known).abs() <= *largest };
-        let kind = FindingKind::Offset { median: summary.median, largest: *largest, of: of.clone(), is_explained };
+        let [median, known, largest] = [summary.median, *known, *largest];
+        let kind = FindingKind::Offset { median, known, largest, of: of.clone(), is_explained };
         findings.push(Finding::whole(kind, Severity::Note));
     }
     findings

@@ -21,3 +21,14 @@ pub(crate) mod report;
 pub(crate) mod shapes;
 pub(crate) mod study;
 pub(crate) mod table;
+
+use std::error::Error;
+use std::process::ExitCode;
+
+/// The status of a program, its error told in a sentence.
+#[allow(clippy::print_stderr, reason = "of programs")]
+pub(crate) fn told(result: Result<(), Box<dyn Error>>) -> ExitCode {
+    let Err(error) = result else { return ExitCode::SUCCESS };
+    eprintln!("error: {error}");
+    ExitCode::FAILURE
+}

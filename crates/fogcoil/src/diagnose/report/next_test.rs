@@ -32,7 +32,7 @@ impl Outcome<'_> {
         // of the drawing, as the command works it out
         let answer = question.answer(self.library.clone(), &|_| ());
         if let Ok(found) = &answer {
-            self.sought.get_or_init(|| sentence(found));
+            self.sought.get_or_init(|| (sentence(found), found.separates()));
         }
         html! {
             @match answer {
