@@ -202,7 +202,7 @@ impl Prepared {
         let run = |model: &Reduced| Course::new(model, &clock, std::slice::from_ref(&clock.chamber), &[first]);
         let course = run(&library.base);
         let base = course.series(&library.base);
-        let mut nominal = library.with_drifts(&course, &base, time, averaging)?;
+        let mut nominal = library.with_curvature(&course, &base, time, averaging)?;
         // as in a simulation they are on from the first row, where all is at rest
         for (power, model) in &library.drawn_heaters {
             nominal.change(&Heating::new(model, &clock, averaging).at(model, 0.0), *power);
@@ -310,8 +310,8 @@ impl Clock {
 }
 
 impl Library {
-    /// A course's thermometer and parts with the design's own drifts, which no reduced model has.
-    fn with_drifts(&self, course: &Course, base: &Series, time: &[f64], averaging: f64) -> Result<Series, Error> {
+    /// A course's thermometer and parts with the design's own curvature, which no reduced model has.
+    fn with_curvature(&self, course: &Course, base: &Series, time: &[f64], averaging: f64) -> Result<Series, Error> {
         let drifts = self.design().drifts;
         let mut series = base.clone();
         if drifts.thermo_optic_curvature != 0.0 {

@@ -116,6 +116,26 @@ fn a_heater_of_the_design_s_own_follows_the_chain() {
     }
 }
 
+/// A read-out that drifts is a part of the design: nothing of it is left to be found.
+#[test]
+fn a_drift_of_the_design_s_own_follows_the_chain() {
+    let mut drifting = design();
+    drifting.drifts.read_out = 0.01 / bias::units::DEG_PER_H_PER_RAD_PER_S;
+    drifting.drifts.reference = 35.0;
+    let [with, without] = [&drifting, &design()].map(|design| {
+        let gyro = of(Library::build(design, &[], &|_| ()).expect("library"), &[]);
+        let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+        gyro.respond(0, &middle, &[]).expect("response").swap_remove(RATE)
+    });
+    let [drifts, sound] = [&drifting, &design()].map(|design| {
+        let [_, rate] = anew(design);
+        rate
+    });
+    // an offset is the record's own
+    let [of_library, of_chain] = [minus(&with, &without), minus(&drifts, &sound)].map(|effect| effect[1..].to_vec());
+    assert!(rms(&of_chain) > 0.1 && rms(&minus(&of_library, &of_chain)) < 1e-3 * rms(&of_chain), "{}", rms(&of_library));
+}
+
 /// Largest share of a mechanism's effect by which the library may differ from the chain.
 const SHARE: f64 = 0.02;
 

@@ -3,6 +3,7 @@
 use crate::REFERENCE_C;
 use crate::design::drifts_about_reference;
 use crate::mechanism::{Effect, Extent, Named, Offer, Scene, Stage, Steady};
+use crate::series::middles;
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use diagnosis::Prior;
 
@@ -24,10 +25,9 @@ pub(super) const RATE_TEMPERATURE_COEFFICIENT: Named = Named {
     offer: |_, scene| Some(Offer::one("coefficient_deg_per_h_per_k", Prior::Size { scale: usual(scene) }, &[0.0])),
     effect: |_, _, active| {
         let coefficient = active.values[0];
-        Ok(Effect::Readings(Box::new(move |r| {
-            for (n, rate) in r.rate.iter_mut().enumerate() {
-                *rate += coefficient * ((r.thermometer[n] + r.thermometer[n.saturating_sub(1)]) / 2.0 - REFERENCE_C);
-            }
+        Ok(Effect::Readings(Box::new(move |readings| {
+            let drift = middles(&readings.thermometer, |t| coefficient * (t - REFERENCE_C));
+            readings.rate.iter_mut().zip(drift).for_each(|(rate, drift)| *rate += drift);
         })))
     },
     extended: |design, active| {

@@ -18,8 +18,9 @@ use crate::library::Library;
 use crate::mechanism::{Change, Effect, Extent, Mechanism, Naming, Offer, Readings, Scene, Sight, Stage};
 use crate::passed::Passed;
 use crate::record_to_bias::Prepared;
-use crate::series::read_late;
-use coil::{Design, Error, Number, Tolerances};
+use crate::series::{middles, read_late};
+use bias::units::DEG_PER_H_PER_RAD_PER_S;
+use coil::{Design, Drifts, Error, Number, Tolerances};
 use diagnosis::{Active, Channel, Failure, ForwardModel, Latent, Nuisance, State};
 use nalgebra::DMatrix;
 use recalibrated::{Recalibrated, share};
@@ -308,6 +309,9 @@ impl<'m> Gyro<'m> {
         for added in changes.iter().filter_map(|acting| acting.change.rate.as_ref()) {
             add(&mut rate, added, 1.0);
         }
+        // whatever the thermometer's lag
+        let Drifts { read_out, reference, .. } = self.library().design().drifts;
+        add(&mut rate, &middles(&thermometer, |t| t - reference), read_out * DEG_PER_H_PER_RAD_PER_S);
         self.read(record, &mut thermometer, u);
         let mut readings = Readings { time: &record.time, thermometer, rate };
         for (_, known) in &effects {
