@@ -3,7 +3,7 @@
 use crate::catalogue::debond;
 use crate::design::{heatable_flanges, with_heater};
 use crate::heat_path::HeatPath;
-use crate::library::{Library, Models, unheated};
+use crate::library::{Library, Models, Opened, unheated};
 use crate::mechanism::Mechanism;
 use coil::{Bonds, COARSE, Design, Error, MechanicalState, Model, ModelEffort, ParametricModel, Range, Side, Tolerances};
 use progress::Step;
@@ -72,12 +72,15 @@ impl Models {
         let [below, hysteresis] = debond::OPENS;
         let opening = |side: Side, share: f64| -> Result<_, Error> {
             let opened = debond::with_opening(design, side, below, hysteresis, share);
-            let at = |bonds| {
-                model.project(&Model::in_state(&opened, &COARSE, &MechanicalState { bonds, ..MechanicalState::NOMINAL })?)
+            let at = |bonds, transverse_expansion| {
+                let state = MechanicalState { bonds, transverse_expansion, ..MechanicalState::NOMINAL };
+                model.project(&Model::in_state(&opened, &COARSE, &state)?)
             };
-            let change = at(Bonds::Opened)?.less(&at(Bonds::Closed)?);
+            let change = |factor| Ok::<_, Error>(at(Bonds::Opened, factor)?.less(&at(Bonds::Closed, factor)?));
+            // strains are linear in what expands
+            let (drawn, doubled) = (change(1.0)?, change(2.0)?);
             one();
-            Ok((share, change))
+            Ok(Opened { share, per_expansion: doubled.less(&drawn), drawn })
         };
         let of_flange = |side: Side| OPEN.par_iter().map(|share| opening(side, *share)).collect::<Result<_, _>>();
         let openings = open.into_iter().map(of_flange).collect::<Result<_, _>>()?;

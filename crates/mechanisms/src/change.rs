@@ -10,6 +10,8 @@ pub struct Change {
     pub parts: Parts,
     /// Change of the spool's thermometer \[K\]; `None` if there is none.
     pub thermometer: Option<Vec<f64>>,
+    /// The same of the bias for each relative change of the coil's transverse expansion \[deg/h\]; `None` if it takes no part.
+    pub per_expansion: Option<Parts>,
     /// Change of the rate beside the bias \[deg/h\]; `None` if there is none.
     pub rate: Option<Vec<f64>>,
 }
@@ -22,7 +24,7 @@ impl Change {
 
     /// The bias changes alone.
     pub fn of_parts(parts: Parts) -> Self {
-        Self { parts, thermometer: None, rate: None }
+        Self { parts, thermometer: None, per_expansion: None, rate: None }
     }
 
     /// The rate changes, but no part of the bias.

@@ -90,7 +90,7 @@ impl Chain {
         add(Stage::Material, material);
 
         let bond = record.openings.iter().flat_map(|flange| flange.iter().step_by((flange.len() / 2).max(1)));
-        add(Stage::Bond, bond.flat_map(|(_, open)| shaped(&Change::of_parts(open.clone()), &hats)).collect());
+        add(Stage::Bond, bond.flat_map(|open| shaped(&Change::of_parts(open.drawn.clone()), &hats)).collect());
 
         let layers = self.library().design().winding.layers;
         let mut winding = vec![of_rate(total(&self.with_tail(record, TAIL)?))];

@@ -28,7 +28,17 @@ pub struct Models {
     pub(crate) tolerances: Tolerances,
     pub(crate) model: ParametricModel,
     /// of each flange whose bond can open, by the open share: opened less closed
-    pub(crate) openings: Vec<Vec<(f64, Projected)>>,
+    pub(crate) openings: Vec<Vec<Opened<Projected>>>,
+}
+
+/// The change that an open share of a bond makes.
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Opened<T> {
+    pub(crate) share: f64,
+    pub(crate) drawn: T,
+    /// what is added for each relative change of the coil's transverse expansion
+    pub(crate) per_expansion: T,
 }
 
 /// The coil along a path of heat.
@@ -122,7 +132,8 @@ impl Library {
         let wider = |x: &f64| MechanicalState { transverse_expansion: 2.0, ..softer(x) };
         let states: Vec<MechanicalState> =
             [MechanicalState::NOMINAL].into_iter().chain(moduli.iter().map(softer)).chain(moduli.iter().map(wider)).collect();
-        let openings: Vec<Projected> = models.openings.iter().flatten().map(|(_, opened)| opened.clone()).collect();
+        let of_each = models.openings.iter().flatten().flat_map(|opened| [&opened.drawn, &opened.per_expansion]);
+        let openings: Vec<Projected> = of_each.cloned().collect();
         let base = model.in_states_and(&design, &states, &openings)?;
         let fields = model.fields(&design, &MechanicalState::NOMINAL)?;
         let constants = constants(&models.drawing, &models.tolerances);
@@ -205,10 +216,16 @@ impl Library {
         self.heat_paths.iter().filter_map(|(id, _, path)| Some((place(path.factor_on?)?, id.clone()))).collect()
     }
 
-    /// Changes of the parts by each opening of each flange, by its open share.
-    pub(crate) fn of_openings(&self) -> Vec<Vec<(f64, Functionals)>> {
+    /// Changes of the parts by each opening of each flange, about the design's own expansion.
+    pub(crate) fn of_openings(&self) -> Vec<Vec<Opened<Functionals>>> {
+        let [own, drawn] = [&self.design, &self.models.drawing].map(|design| design.body.elastic.alpha_r);
+        let factor = if drawn == 0.0 { 1.0 } else { own / drawn };
         let mut states = 1 + 2 * self.moduli.len()..;
-        let mut of = |(share, _): &(f64, Projected)| Some((*share, self.functionals(states.next()?)));
+        let mut of = |opened: &Opened<Projected>| {
+            let (drawn, per_expansion) = (self.functionals(states.next()?), self.functionals(states.next()?));
+            let drawn = [0, 1, 2].map(|p: usize| &drawn[p] + &per_expansion[p] * (factor - 1.0));
+            Some(Opened { share: opened.share, drawn, per_expansion: per_expansion.map(|part| part * factor) })
+        };
         self.models.openings.iter().map(|flange| flange.iter().filter_map(&mut of).collect()).collect()
     }
 

@@ -4,7 +4,7 @@ use crate::chamber::Chamber;
 use crate::constants::tails;
 use crate::course::{BETWEEN, Clock, Course, Delay, Parts, Series, Undelayed, minus, product, undelayed};
 use crate::curvature::Curvature;
-use crate::library::{Functionals, Library};
+use crate::library::{Functionals, Library, Opened};
 use crate::passed::{Passed, passed};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::{Error, Parameter, Profile, Reduced};
@@ -54,7 +54,7 @@ pub struct Prepared {
     pub(crate) modulus: Vec<(f64, Parts, Parts)>,
     pub(crate) paths: Vec<Along>,
     /// of each flange whose bond can open: open minus closed
-    pub(crate) openings: Vec<Vec<(f64, Parts)>>,
+    pub(crate) openings: Vec<Vec<Opened<Parts>>>,
     /// of each flange that may be heated
     pub(crate) heaters: Vec<Heating>,
     /// further columns by their names
@@ -221,7 +221,10 @@ impl Prepared {
             Along { id: path.id.clone(), place: path.place, own: path.own, nodes: path.nodes.clone(), changes }
         });
         let heaters = library.heaters.iter().map(|model| Heating::new(model, &clock, averaging)).collect();
-        let opened = |(share, change): (f64, Functionals)| (share, course.parts(&change));
+        let opened = |Opened { share, drawn, per_expansion }: Opened<Functionals>| {
+            let [drawn, per_expansion] = [drawn, per_expansion].map(|functionals| course.parts(&functionals));
+            Opened { share, drawn, per_expansion }
+        };
         let openings = library.of_openings().into_iter().map(|flange| flange.into_iter().map(opened).collect()).collect();
         let coil = course.output(library.base.coil_mean());
         let level = nominal.sensor.clone();

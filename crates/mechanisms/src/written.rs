@@ -1,9 +1,8 @@
 //! Mechanisms whose law is text: a user's own.
 
-use crate::catalogue::debond;
+use crate::catalogue::debond::{self, share_weights};
 use crate::course::{Clock, GAP, Series, add, total};
 use crate::design::heatable_flanges;
-use crate::interpolation::cubic_weights;
 use crate::law_tools::Chain;
 use crate::mechanism::{Change, Effect, Extent, Facts, Mechanism, Naming, Offer, Scene, Stage, Steady};
 use crate::record_to_bias::Prepared;
@@ -276,11 +275,14 @@ impl Mechanism for Written {
         if let Some(open) = of(Target::OpenBond)
             && let Some(openings) = record.openings.first()
         {
-            let nodes: Vec<f64> = std::iter::once(0.0).chain(openings.iter().map(|(share, _)| *share)).collect();
+            let wider = change.per_expansion.get_or_insert_with(|| Change::none(record).parts);
             for (n, share) in means(record, &run, &open).into_iter().enumerate() {
-                let w = cubic_weights(&nodes, share.clamp(0.0, nodes[nodes.len() - 1]));
-                for (w, (_, parts)) in w[1..].iter().zip(openings) {
-                    (0..3).for_each(|p| change.parts[p][n] += w * parts[p][n]);
+                let w = share_weights(openings, share);
+                for (w, opened) in w.iter().zip(openings) {
+                    for p in 0..3 {
+                        change.parts[p][n] += w * opened.drawn[p][n];
+                        wider[p][n] += w * opened.per_expansion[p][n];
+                    }
                 }
             }
         }

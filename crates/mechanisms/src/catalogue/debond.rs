@@ -4,6 +4,7 @@ use crate::Prepared;
 use crate::course::Parts;
 use crate::design::{bonded_flanges, choice_of, chosen};
 use crate::interpolation::cubic_weights;
+use crate::library::Opened;
 use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, across, grid};
 use coil::{Bonds, Design, MechanicalState, Mechanics, Opening, Side};
 use diagnosis::{Parameter, Prior};
@@ -51,7 +52,7 @@ pub(super) const DEBOND: Named = Named {
     },
     effect: |_, record, active| {
         let v = &active.values;
-        Ok(Effect::Coil(Change::of_parts(opened(record, chosen(active), v[0], v[1], v[2]))))
+        Ok(Effect::Coil(opened(record, chosen(active), v[0], v[1], v[2])))
     },
     extended: |design, active| {
         let v = &active.values;
@@ -78,13 +79,19 @@ fn with_first_opening(design: &Design, fraction: f64) -> Design {
     flanges(design).first().map_or_else(|| design.clone(), |side| with_opening(design, *side, below, hysteresis, fraction))
 }
 
-/// Parts of a coil whose bond opens, less those of one whose bond holds.
-fn opened(record: &Prepared, place: usize, below: f64, hysteresis: f64, share: f64) -> Parts {
-    let openings = &record.openings[place];
+/// Weights of the openings at an open share.
+pub(crate) fn share_weights<T>(openings: &[Opened<T>], share: f64) -> Vec<f64> {
     // nothing open changes nothing
-    let nodes: Vec<f64> = std::iter::once(0.0).chain(openings.iter().map(|(share, _)| *share)).collect();
-    let w = &cubic_weights(&nodes, share.clamp(0.0, nodes[nodes.len() - 1]))[1..];
+    let nodes: Vec<f64> = std::iter::once(0.0).chain(openings.iter().map(|opened| opened.share)).collect();
+    cubic_weights(&nodes, share.clamp(0.0, nodes[nodes.len() - 1])).split_off(1)
+}
+
+/// A coil whose bond opens, less one whose bond holds.
+fn opened(record: &Prepared, place: usize, below: f64, hysteresis: f64, share: f64) -> Change {
+    let openings = &record.openings[place];
+    let w = share_weights(openings, share);
     let mut change: Parts = [0, 1, 2].map(|_| vec![0.0; record.time.len()]);
+    let mut wider = change.clone();
     let mut open = record.coil[0] < below;
     for n in 1..record.time.len() {
         // part of the interval after a threshold is crossed, the temperature being linear in it
@@ -99,12 +106,13 @@ fn opened(record: &Prepared, place: usize, below: f64, hysteresis: f64, share: f
             if open { after(below) } else { 0.0 }
         };
         if part > 0.0 {
-            for (w, (_, parts)) in w.iter().zip(openings).filter(|(w, _)| **w != 0.0) {
+            for (w, opened) in w.iter().zip(openings).filter(|(w, _)| **w != 0.0) {
                 for p in 0..3 {
-                    change[p][n] += part * w * parts[p][n];
+                    change[p][n] += part * w * opened.drawn[p][n];
+                    wider[p][n] += part * w * opened.per_expansion[p][n];
                 }
             }
         }
     }
-    change
+    Change { per_expansion: Some(wider), ..Change::of_parts(change) }
 }

@@ -20,7 +20,7 @@ use crate::passed::Passed;
 use crate::record_to_bias::Prepared;
 use crate::series::{middles, read_late};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
-use coil::{Design, Drifts, Error, Number, Tolerances};
+use coil::{Design, Drifts, Error, Number, Parameter, Tolerances};
 use diagnosis::{Active, Channel, Failure, ForwardModel, Latent, Nuisance, State};
 use nalgebra::DMatrix;
 use recalibrated::{Recalibrated, share};
@@ -241,7 +241,7 @@ impl<'m> Gyro<'m> {
         match facts.stage {
             // another path of heat leaves the constants as they are
             Stage::Thermal if facts.heat_path.is_some() => Kind::Path,
-            Stage::Winding => Kind::Winding,
+            Stage::Winding | Stage::Bond => Kind::Beside,
             _ => Kind::Other,
         }
     }
@@ -278,6 +278,17 @@ impl<'m> Gyro<'m> {
         Ok(effect)
     }
 
+    /// Relative change of the coil's transverse expansion from where the models are made.
+    fn expansion(&self, u: &[f64]) -> f64 {
+        let library = self.library();
+        let all = library.constants.iter().zip(library.values()).zip(&u[instruments::CONSTANTS..]);
+        let change = |((constant, own), told): ((&Constant, f64), &f64)| {
+            let is_it = constant.parameter == Parameter::TransverseExpansion && own != 0.0;
+            is_it.then(|| constant.value(*told) / own - 1.0)
+        };
+        all.filter_map(change).sum()
+    }
+
     /// Response of every channel in a record, with nuisances `u` and mechanisms at work.
     ///
     /// # Errors
@@ -293,11 +304,12 @@ impl<'m> Gyro<'m> {
         let at_work = others.into_iter().chain(&away);
         let effects =
             at_work.map(|a| Ok((self.kind(a.mechanism), self.effect(number, a)?))).collect::<Result<Vec<_>, Error>>()?;
+        let expansion = self.expansion(u);
         let changes: Vec<Acting> = effects
             .iter()
-            .filter_map(|(kind, known)| Some(Acting { change: known.change()?, gain: known.gain, kind: *kind }))
+            .filter_map(|(kind, known)| Some(Acting { change: known.change()?, gain: known.gain, kind: *kind, expansion }))
             .collect();
-        let by_heat = changes.iter().any(|acting| acting.kind == Kind::Winding).then(|| self.by_heat(&without));
+        let by_heat = changes.iter().any(|acting| acting.kind == Kind::Beside).then(|| self.by_heat(&without));
         let parts = together(&record.nominal.parts, &without, by_heat, &changes);
         for Acting { change, .. } in &changes {
             if let Some(of_thermometer) = &change.thermometer {

@@ -10,6 +10,16 @@ pub(super) struct Acting<'a> {
     /// share of every nominal part in its change
     pub(super) gain: [f64; 3],
     pub(super) kind: Kind,
+    /// relative change of the coil's transverse expansion that it goes with
+    pub(super) expansion: f64,
+}
+
+impl Acting<'_> {
+    /// Change of a part in a row.
+    fn of(&self, part: usize, row: usize) -> f64 {
+        let wider = self.change.per_expansion.as_ref().map_or(0.0, |wider| wider[part][row]);
+        self.change.parts[part][row] + self.expansion * wider
+    }
 }
 
 /// The way in which a change goes with what the constants do.
@@ -17,8 +27,8 @@ pub(super) struct Acting<'a> {
 pub(super) enum Kind {
     /// it changes the temperatures
     Path,
-    /// it weighs the turns otherwise: what the constants do to the temperatures alone is a gain on it, and it on that
-    Winding,
+    /// it weighs the turns otherwise, or lets the coil go: what the constants do to the temperatures alone is a gain on it, and it on that
+    Beside,
     Other,
 }
 
@@ -26,8 +36,8 @@ pub(super) enum Kind {
 ///
 /// A path of heat changes the temperatures that all others act on: its gain on a part is one on their changes, too, and theirs is one on what it adds
 /// beyond its gain. The others act on different things, and their changes add up: a tail's share of a part that cancels nearly, as a
-/// quadrupole's does, says nothing of what it does to a softer coil. What the tolerance of the tails adds is of that kind, too. So a change of the winding
-/// goes with what constants do `by_heat`, and adds to what others do.
+/// quadrupole's does, says nothing of what it does to a softer coil. What the tolerance of the tails adds is of that kind, too. So a change of the winding, or
+/// of its bond, goes with what constants do `by_heat`, and adds to what others do.
 pub(super) fn together(nominal: &Parts, without: &Recalibrated, by_heat: Option<&ByHeat>, changes: &[Acting]) -> Parts {
     let mut parts = without.parts.clone();
     for (p, part) in parts.iter_mut().enumerate() {
@@ -38,14 +48,15 @@ pub(super) fn together(nominal: &Parts, without: &Recalibrated, by_heat: Option<
         let (all_paths, of_constants) = (of_paths(None), without.gain[p]);
         let of_others = 1.0 + changes.iter().filter(|acting| acting.kind != Kind::Path).map(|acting| acting.gain[p]).sum::<f64>();
         part.iter_mut().zip(&without.of_tails[p]).for_each(|(rate, of_tails)| *rate = all_paths * (*rate + of_tails));
-        for (k, Acting { change, gain, kind }) in changes.iter().enumerate() {
-            let own = gain[p];
+        for (k, acting) in changes.iter().enumerate() {
+            let own = acting.gain[p];
             let (moved, of_constants) = match by_heat {
-                Some(by_heat) if *kind == Kind::Winding => (&by_heat.parts[p], by_heat.gain[p]),
+                Some(by_heat) if acting.kind == Kind::Beside => (&by_heat.parts[p], by_heat.gain[p]),
                 _ => (&without.parts[p], of_constants),
             };
-            let rows = part.iter_mut().zip(&change.parts[p]).zip(nominal[p].iter().zip(moved));
-            if *kind == Kind::Path {
+            let changed = (0..part.len()).map(|row| acting.of(p, row));
+            let rows = part.iter_mut().zip(changed).zip(nominal[p].iter().zip(moved));
+            if acting.kind == Kind::Path {
                 let beyond = of_constants * of_paths(Some(k)) * of_others;
                 rows.for_each(|((rate, changed), (nominal, _))| *rate += beyond * (changed - own * nominal));
             } else {
@@ -83,7 +94,7 @@ mod tests {
     }
 
     fn acting(change: &Change, gain: f64, is_path: bool) -> Acting<'_> {
-        Acting { change, gain: [gain; 3], kind: if is_path { Kind::Path } else { Kind::Other } }
+        Acting { change, gain: [gain; 3], kind: if is_path { Kind::Path } else { Kind::Other }, expansion: 0.0 }
     }
 
     fn first(changes: &[Acting], without: &Recalibrated) -> Vec<f64> {
@@ -137,7 +148,7 @@ mod tests {
         let (more, large) = (change(NOMINAL.map(|x| 0.7 * x)), change([0.3, 0.1, -0.2, 0.7]));
         let by_heat = ByHeat { parts: parts(NOMINAL.map(|x| 2.0 * x)), gain: [2.0; 3] };
         let without = at(NOMINAL.map(|x| 2.5 * x), 2.5);
-        let winding = |change, gain| Acting { change, gain: [gain; 3], kind: Kind::Winding };
+        let winding = |change, gain| Acting { change, gain: [gain; 3], kind: Kind::Beside, expansion: 0.0 };
         let [first, ..] = together(&parts(NOMINAL), &without, Some(&by_heat), &[winding(&more, 0.7), winding(&large, 0.2)]);
         let sum: Vec<f64> = NOMINAL.iter().zip(&large.parts[0]).map(|(n, l)| (2.5 + 1.4) * n + 2.0 * l).collect();
         near(&first, &sum);
