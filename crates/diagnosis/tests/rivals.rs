@@ -238,6 +238,21 @@ fn the_model_is_that_of_the_likeliest_if_it_led_before() {
     assert_eq!(settled.leading.expect("one leads").active, led.active);
 }
 
+/// What led before the comparison was found under the same model: where the comparison finds it likelier, that is how likely it is.
+#[test]
+fn what_led_is_no_less_likely_than_the_comparison_finds_it() {
+    const BEHIND: f64 = 20.0;
+    let (pair, observed) = (Pair::new(better_elsewhere, [1.0; 2], None), [observed()]);
+    let mut settled = settled(&pair, &[0], &observed, &|_| ()).expect("a fit");
+    let leading = settled.leading.as_mut().expect("one leads");
+    let (hypothesis, log_evidence) = (leading.hypothesis.clone(), leading.log_evidence);
+    leading.log_evidence -= BEHIND;
+    let found = diagnose_settled(&pair, &mut settled, &[0], &observed, &Settings::default(), &|_| ()).expect("a diagnosis");
+    let same = found.candidates.iter().find(|c| c.rival.is_none() && c.fit.hypothesis == hypothesis);
+    let behind = log_evidence - same.expect("it was compared").fit.log_evidence;
+    assert!(behind.abs() < 0.5, "{behind}");
+}
+
 /// A search that never arrives ends all the same, and its progress with it.
 #[test]
 fn a_search_without_an_end_is_as_long_as_was_said() {

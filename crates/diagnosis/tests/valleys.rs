@@ -9,6 +9,10 @@ const GROUND: f64 = 8.0;
 /// Two parameters, of whose sum the record knows much, and valleys of their difference, the second one lower by `gain`; an offset makes up for what the
 /// difference adds to all rows.
 fn of_a_difference(gain: f64) -> Valleys {
+    begun_at(&[0.0, 0.0], gain)
+}
+
+fn begun_at(start: &[f64], gain: f64) -> Valleys {
     let valleys = move |p: &[f64]| {
         let (sum, difference) = (p[0] + p[1], p[0] - p[1]);
         let (middle, ground) = if difference < 1.5 { (0.0, GROUND) } else { (2.0, GROUND - gain) };
@@ -17,7 +21,7 @@ fn of_a_difference(gain: f64) -> Valleys {
         let ground = ground.sqrt();
         [20.0 * sum, 100.0 * (difference - middle), ground, -ground, 0.0, 0.0, 0.0, 0.0].map(|row| row + of_all)
     };
-    Valleys::new(&[&[0.0, 0.0]], &[1.0], valleys).with_any_offset()
+    Valleys::new(&[start], &[1.0], valleys).with_any_offset()
 }
 
 /// The valley cannot be left by one of the two alone, nor without the offset that goes with them.
@@ -42,6 +46,16 @@ fn a_better_minimum_is_found_where_one_parameter_moves_against_another_and_the_r
 fn a_minimum_that_is_hardly_better_is_not_gone_to() {
     let fit = of_a_difference(0.15).fitted();
     assert!(fit.active[0].values.iter().all(|p| p.abs() < 0.01), "{:?}", fit.active);
+}
+
+/// The poorer minimum leaves more noise, under which the better one looks worse than it is.
+#[test]
+fn the_noise_is_that_of_the_better_minimum_wherever_the_fit_began() {
+    let [gone_to, begun_in] = [[0.0, 0.0], [1.0, -1.0]].map(|start| begun_at(&start, 7.0).with_any_noise().fitted());
+    let [white, own] = [&gone_to, &begun_in].map(|fit| fit.noise_model(0, 0).white);
+    assert!((gone_to.active[0].values[0] - 1.0).abs() < 0.01 && (white / own - 1.0).abs() < 0.05, "{white} {own}");
+    let behind = begun_in.log_evidence - gone_to.log_evidence;
+    assert!(behind.abs() < 0.1, "{behind}");
 }
 
 /// The valley bends so that one step along it from afar leads elsewhere: as the instants of a switch do where all readings come later.

@@ -6,29 +6,19 @@ use super::objective::{Objective, Point};
 use crate::Error;
 use nalgebra::{Cholesky, DVector};
 
-/// Rounds of the search around a fit.
-const SEARCHES: usize = 6;
 /// Least gain of ln p that is worth a round.
 const WORTH: f64 = 0.3;
 /// Linear steps by which the others follow a nuisance that is set aside.
 const FOLLOWED: usize = 2;
 
 impl Fitter<'_> {
-    /// Looks for a better minimum around a fit: each parameter that asks for it ([`crate::Parameter::around`]) is set aside by its distances; of nuisances
-    /// beside a mechanism's that asks.
-    pub(super) fn searched(&self, mut best: Fit) -> Result<Fit, Error> {
-        for _ in 0..SEARCHES {
-            let (hypothesis, noise) = (best.hypothesis.clone(), best.noise.clone());
-            let objective = Objective::new(self, &hypothesis, &noise)?;
-            let value = best.value();
-            let Some(found) = objective.beside(&best)?.filter(|found| found.value <= value - WORTH) else { break };
-            let fit = objective.concluded(objective.descend(found)?)?;
-            if fit.log_evidence <= best.log_evidence {
-                break;
-            }
-            best = fit;
-        }
-        Ok(best)
+    /// A better minimum around a fit, under its noise, if there is one: each parameter that asks for it ([`crate::Parameter::around`]) is set aside by its
+    /// distances; of nuisances beside a mechanism's that asks.
+    pub(super) fn found_beside(&self, best: &Fit) -> Result<Option<Fit>, Error> {
+        let objective = Objective::new(self, &best.hypothesis, &best.noise)?;
+        let Some(found) = objective.beside(best)?.filter(|found| found.value <= best.value() - WORTH) else { return Ok(None) };
+        let fit = objective.concluded(objective.descend(found)?)?;
+        Ok(Some(fit).filter(|fit| fit.log_evidence > best.log_evidence))
     }
 }
 

@@ -41,6 +41,8 @@ const STARTS: usize = 4;
 const MOST_DESCENTS: usize = 12;
 /// Difference of ln p below which two fits have ended alike: ten times the change at which one settles.
 const ALIKE: f64 = 0.05;
+/// Most second looks around a fit.
+const SEARCHES: usize = 6;
 /// Least gain of ln evidence by a round of fitting the noise after which another round follows.
 const NOISE_SETTLED: f64 = 0.1;
 
@@ -103,12 +105,22 @@ impl Fitter<'_> {
         best.ok_or(Error::NoStart)
     }
 
-    /// Fits a hypothesis and its noise in turn, `rounds` times.
+    /// Fits a hypothesis and its noise in turn, `rounds` times, and as often again where a second look has found a better minimum: the noise that the poorer
+    /// one left is too large for it.
     pub(crate) fn fit_with_noise(&self, hypothesis: &Hypothesis, known: &Fit, rounds: usize) -> Result<Fit, Error> {
-        let mut best = self.fit(hypothesis, &known.noise, Some(known))?;
+        let mut best = self.in_turn(self.fit(hypothesis, &known.noise, Some(known))?, rounds)?;
+        for _ in 0..SEARCHES {
+            let Some(found) = self.found_beside(&best)? else { break };
+            best = self.in_turn(found, rounds)?;
+        }
+        Ok(best)
+    }
+
+    /// Goes on from a fit: its noise and it in turn.
+    fn in_turn(&self, mut best: Fit, rounds: usize) -> Result<Fit, Error> {
         for _ in 0..rounds {
             let noise = best.noise.refitted(self.model.channels(), self.observations, &best.residuals)?;
-            let fit = self.fit(hypothesis, &noise, Some(&best))?;
+            let fit = self.fit(&best.hypothesis, &noise, Some(&best))?;
             let gained = fit.log_evidence - best.log_evidence;
             if gained > 0.0 {
                 best = fit;
@@ -117,6 +129,6 @@ impl Fitter<'_> {
                 break;
             }
         }
-        self.searched(best)
+        Ok(best)
     }
 }

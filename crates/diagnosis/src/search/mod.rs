@@ -126,7 +126,12 @@ impl Pool<'_> {
     fn push_for(&mut self, fit: Fit, rival: Option<Rival>, kin: f64) {
         let own = rival.is_none() && !fit.active.is_empty();
         let known = self.known.iter().find(|known| own && known.hypothesis == fit.hypothesis);
-        let fit = known.cloned().unwrap_or(fit);
+        // what leads is known from this model: there the better of two fits is the right one
+        let leads = self.leading.as_ref().is_some_and(|leading| leading.hypothesis == fit.hypothesis);
+        let fit = match known {
+            Some(known) if leads => Fit::better(Some(known.clone()), fit),
+            _ => known.cloned().unwrap_or(fit),
+        };
         let log_prior = self.settings.log_prior(self.fitter.model, &fit.hypothesis, rival.is_some());
         let log_weight = log_prior + fit.log_evidence + rival.as_ref().map_or(0.0, |r| r.gain) + kin;
         self.candidates.push(Candidate { fit, rival, log_weight, probability: 0.0 });

@@ -134,7 +134,7 @@ fn decide([none, recalibrate, explained, unknown]: [f64; 4], gain: f64) -> Verdi
     }
 }
 
-/// Puts the best candidate of the verdict first.
+/// Puts the best candidate of the verdict first: of the likeliest set of mechanisms, all its choices together, the likeliest.
 fn lead(model: &dyn ForwardModel, candidates: &mut [Candidate], verdict: Verdict, mechanisms: &[(usize, f64)]) {
     // of those that hold the likeliest mechanism, many small candidates together may outweigh a large one
     let likeliest = mechanisms.iter().map(|(m, _)| *m).find(|m| model.mechanisms()[*m].named);
@@ -142,7 +142,12 @@ fn lead(model: &dyn ForwardModel, candidates: &mut [Candidate], verdict: Verdict
         kind(model, c) == verdict
             && (verdict != Verdict::Explained || likeliest.is_some_and(|mechanism| c.fit.hypothesis.has(mechanism)))
     };
-    if let Some(at) = candidates.iter().position(fits) {
+    let together = |c: &Candidate| -> f64 {
+        candidates.iter().filter(|other| fits(other) && of_one_kind(c, other)).map(|other| other.probability).sum()
+    };
+    // of one set the first, which is the likeliest
+    let of_kind = candidates.iter().enumerate().filter(|(_, c)| fits(c)).rev();
+    if let Some((at, _)) = of_kind.max_by(|a, b| together(a.1).total_cmp(&together(b.1))) {
         candidates[..=at].rotate_right(1);
     }
 }
@@ -241,5 +246,16 @@ mod tests {
         assert_eq!(order(Verdict::Explained), [0.24, 0.3, 0.25, 0.21]);
         // none speaks for it: as they were
         assert_eq!(order(Verdict::Unknown), [0.3, 0.25, 0.24, 0.21]);
+    }
+
+    #[test]
+    fn of_the_sets_of_mechanisms_the_likeliest_leads_though_its_choices_share_it() {
+        let model = library(&[true; 3]);
+        let choices = [0.15, 0.14, 0.13].map(|p| candidate(&[0, 2], p));
+        let mut candidates = [vec![candidate(&[0, 1], 0.3), candidate(&[0], 0.28)], choices.to_vec()].concat();
+        let mechanisms = marginals(&model, &candidates, plain);
+        lead(&model, &mut candidates, Verdict::Explained, &mechanisms);
+        let leads = &candidates[0];
+        assert_eq!((leads.fit.hypothesis.numbers(), leads.probability), (vec![0, 2], 0.15));
     }
 }

@@ -65,6 +65,12 @@ impl Valleys {
         self
     }
 
+    /// The same where little is known of the noise.
+    pub(crate) fn with_any_noise(mut self) -> Self {
+        self.channels[0].noise.white.1 = 1.0;
+        self
+    }
+
     pub(crate) fn record() -> Observation {
         Observation { time: (0..ROWS).map(|n| STEP_S * n as f64).collect(), channels: vec![vec![0.0; ROWS]] }
     }
