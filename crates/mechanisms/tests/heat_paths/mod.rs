@@ -225,3 +225,20 @@ fn a_wider_gap_that_conducts_better_follows_the_chain() {
         assert!(off < 0.01 * one, "{off} of {one}");
     }
 }
+
+/// A film as the mechanism words it, in place of still air: of what the factor does it leaves little, and is not the same.
+#[test]
+fn air_that_conducts_better_imitates_the_film_that_it_names() {
+    const FACTOR: f64 = 2.9;
+    let path = mechanisms::find("air-path").and_then(|own| own.facts().heat_path).expect("a path of heat");
+    let drawing = reference();
+    let said = path.imitates.expect("a film")(&drawing, FACTOR);
+    let film = said.split_once("heat.film_w_per_m2k: Some(").and_then(|(_, of)| of.strip_suffix(')')?.parse().ok());
+    let (mut moving, mut still) = (drawing.clone(), drawing.clone());
+    moving.heat.film = film;
+    still.surroundings.conductivity *= FACTOR;
+    assert!(film.is_some(), "{said}");
+    let [drawn, moving, still] = [&drawing, &moving, &still].map(anew);
+    let [off, effect] = [&moving, &drawn].map(|other| rms(&minus(&still[SPOOL], &other[SPOOL])));
+    assert!(off < 0.2 * effect && off > 1e-3 * effect, "{off} of {effect}");
+}
