@@ -20,6 +20,9 @@ pub struct HeatPath {
     pub nudge: Option<f64>,
     /// The constant of the design on which the mechanism's only parameter is a factor, the coordinate its logarithm; `None` of any other path.
     pub factor_on: Option<coil::Parameter>,
+    /// A path of another form that does nearly the same at a value of the parameter, in words, with the key of a coil file that draws it: what is left of
+    /// it beside this one is put on constants and instruments.
+    pub imitates: Option<fn(&Design, f64) -> String>,
 }
 
 /// A path of heat that a model's design has: how far along it the design is.

@@ -48,6 +48,8 @@ pub struct Prepared {
     pub(crate) tail: Parts,
     /// derivatives by every constant, SI
     pub(crate) slopes: Vec<Series>,
+    /// of the constant that a path of heat follows, the change that does to the thermometer what one unit of each constant does, SI
+    pub(crate) alike: Vec<f64>,
     /// place and value of the spool's expansion among the constants
     expansion: Option<(usize, f64)>,
     /// parts at each node of the transverse modulus, with the nominal α_r and per unit of its factor
@@ -249,6 +251,7 @@ impl Prepared {
             averaging,
             off_rest: minus(&off.series(&library.base), &base),
             spread,
+            alike: alike(&slopes, library.factored().first().map(|(place, _)| *place)),
             slopes,
             curved: Curvature::new(library, crate::REFERENCE_C)?.rates(&course, time, averaging),
             expansion: library
@@ -273,6 +276,17 @@ impl Prepared {
             state: State { level, rate },
         })
     }
+}
+
+/// How much of the derivative by the constant at `place` is in that by each, by what they do to the thermometer; nothing in that of one that leaves it
+/// alone.
+fn alike(slopes: &[Series], place: Option<usize>) -> Vec<f64> {
+    let followed = place.map(|place| &slopes[place].sensor).map(|sensor| (sensor, product(sensor, sensor)));
+    let share = |slope: &Series| match followed {
+        Some((sensor, square)) if square > 0.0 => product(&slope.sensor, sensor) / square,
+        _ => 0.0,
+    };
+    slopes.iter().map(share).collect()
 }
 
 /// The spool's thermometer as designed under a chamber's readings, over gaps of which it goes on straight lines \[°C\].

@@ -1,6 +1,6 @@
 //! Constants of the design and the instruments by the records, beside their prior values.
 
-use diagnosis::{Fit, Hypothesis, Place, Posterior, Role, Verdict};
+use diagnosis::{Active, Fit, Hypothesis, Place, Posterior, Role, Verdict};
 use files::{Note, Remark};
 use mechanisms::reading_of;
 use serde_json::{Value, json};
@@ -76,7 +76,7 @@ impl Outcome<'_> {
     pub(super) fn late(&self) -> Option<String> {
         let delay = self.constants().into_iter().find(|c| c.posterior.name == RATE_DELAY)?;
         let sure = delay.posterior.u.abs() > FAR * delay.posterior.sd && delay.moved().abs() > WORTH;
-        sure.then(|| delayed(ends(&delay.posterior), self.is_incomplete()))
+        sure.then(|| delayed(ends(&delay.posterior), self.doubted().as_deref()))
     }
 
     /// Whether the instruments' numbers may only make up for what is unexplained: the verdict is unknown, or something without a name takes part more probably than
@@ -86,8 +86,25 @@ impl Outcome<'_> {
         self.diagnosis.verdict == Verdict::Unknown || unknown > 0.5
     }
 
+    /// What else the instruments' numbers may make up for, if not only the instruments.
+    fn doubted(&self) -> Option<String> {
+        let unexplained = "as far as an incomplete model tells; it may only make up for what is unexplained";
+        let imitated = || self.imitated().map(|other| format!("but {other}, may look the same"));
+        if self.is_incomplete() { Some(unexplained.to_owned()) } else { imitated() }
+    }
+
+    /// What a path of heat of the answer may imitate: the records may be of that one, and constants and instruments make up for the difference.
+    pub(super) fn imitated(&self) -> Option<String> {
+        let of = |active: &Active| {
+            let imitates = self.gyro.mechanism(active.mechanism).facts().heat_path?.imitates?;
+            Some(imitates(self.gyro.library().design(), *active.values.first()?))
+        };
+        self.leading().active.iter().find_map(of)
+    }
+
     /// A warning for each instrument that the answer takes to be far off.
     pub(super) fn far_off(&self) -> Vec<Note> {
+        let doubted = self.doubted();
         let far = |c: &&Constant| c.kind == "instrument" && c.moved().abs() > FAR;
         let said = |c: &Constant| {
             let [value, low, high] = ends(&c.posterior).map(|value| significant(value, 4));
@@ -96,7 +113,7 @@ impl Outcome<'_> {
                 "the answer takes the {} to be {value} (90 % interval {low} to {high}), {sigmas} standard deviations off what is known of it",
                 c.posterior.name
             );
-            Remark::InstrumentOff.warning(format!("{off}: {}", advised("check the instrument", self.is_incomplete())))
+            Remark::InstrumentOff.warning(format!("{off}: {}", advised("check the instrument", doubted.as_deref())))
         };
         self.moved().iter().filter(far).map(said).collect()
     }
@@ -126,31 +143,29 @@ impl Outcome<'_> {
         worth(&all, "design", |p| interval_by_key(self.gyro.library().design(), told.clone(), &p.name, ends(p)))
     }
 
-    /// Numbers of the instruments likewise, each with whether it is qualified: it may only make up for what is unexplained.
+    /// Numbers of the instruments likewise, each with whether it is qualified: it may only make up for what is unexplained or imitated.
     pub(super) fn sensors_json(&self) -> Value {
         let mut sensors = worth(&self.constants(), "instrument", |p| {
             let [value, low, high] = ends(p);
             Some((reading_of(&p.name)?, value, [low, high]))
         });
         for sensor in sensors.as_array_mut().into_iter().flatten() {
-            sensor["qualified"] = self.is_incomplete().into();
+            sensor["qualified"] = self.doubted().is_some().into();
         }
         sensors
     }
 }
 
-/// What is to be done about an instrument by an answer; by one of an `incomplete` model, that it may be in vain.
-fn advised(advice: &str, incomplete: bool) -> String {
-    let doubt =
-        if incomplete { "as far as an incomplete model tells; it may only make up for what is unexplained. Else " } else { "" };
-    format!("{doubt}{advice}")
+/// What is to be done about an instrument by an answer, unless it is as `doubted`.
+fn advised(advice: &str, doubted: Option<&str>) -> String {
+    doubted.map_or_else(|| advice.to_owned(), |doubt| format!("{doubt}. Else {advice}"))
 }
 
 /// The sentence on a delay of the rate, with the ends of its interval \[s\].
-fn delayed([value, low, high]: [f64; 3], incomplete: bool) -> String {
+fn delayed([value, low, high]: [f64; 3], doubted: Option<&str>) -> String {
     let (how, [low, high]) = if value > 0.0 { ("late", [low, high]) } else { ("early", [-high, -low]) };
     let [value, low, high] = [value.abs(), low, high].map(|seconds| significant(seconds, 2));
-    let advice = advised("compare how the loggers stamp their rows", incomplete);
+    let advice = advised("compare how the loggers stamp their rows", doubted);
     format!("The rate is read {value} s {how} (90 %: {low} to {high}), beside the temperatures: {advice}.")
 }
 
@@ -180,13 +195,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_an_incomplete_model_tells_of_an_instrument_is_qualified() {
-        let [plain, incomplete] = [false, true].map(|incomplete| delayed([37.0, 23.0, 51.0], incomplete));
+    fn what_a_doubted_model_tells_of_an_instrument_is_qualified() {
+        let doubt = "but air that moves may look the same";
+        let [plain, doubted] = [None, Some(doubt)].map(|doubted| delayed([37.0, 23.0, 51.0], doubted));
         let said = "The rate is read 37 s late (90 %: 23 to 51), beside the temperatures: ";
         assert_eq!(plain, said.to_owned() + "compare how the loggers stamp their rows.");
-        let doubt = "as far as an incomplete model tells; it may only make up for what is unexplained. Else compare how the loggers stamp their rows.";
-        assert_eq!(incomplete, said.to_owned() + doubt);
-        assert!(delayed([-2.0, -3.0, -1.0], false).starts_with("The rate is read 2.0 s early (90 %: 1.0 to 3.0)"));
+        assert_eq!(doubted, format!("{said}{doubt}. Else compare how the loggers stamp their rows."));
+        assert!(delayed([-2.0, -3.0, -1.0], None).starts_with("The rate is read 2.0 s early (90 %: 1.0 to 3.0)"));
     }
 
     /// A delay of 14 s of which ±16 s was known is worth a word if the records tell it to a second, and none if they say as little as before.

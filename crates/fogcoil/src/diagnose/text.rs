@@ -438,10 +438,9 @@ impl Outcome<'_> {
     fn second_fault(&self) -> String {
         let constant = self.moved().into_iter().find(Constant::is_of_design);
         constant.as_ref().and_then(far).map_or(String::new(), |far| {
-            format!(
-                " Beside {}, {far}: measure it, too; a second, smaller fault may hide behind it.",
-                self.told_names().join(" and ")
-            )
+            let names = self.told_names().join(" and ");
+            let imitated = self.imitated().map_or(String::new(), |other| format!("{other}, may look the same. Else "));
+            format!(" Beside {names}, {far}: {imitated}measure it, too; a second, smaller fault may hide behind it.")
         })
     }
 

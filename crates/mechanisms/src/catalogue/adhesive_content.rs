@@ -37,6 +37,7 @@ pub(super) const ADHESIVE_CONTENT: Named = Named {
         nowhere: 0.0,
         nudge: None,
         factor_on: None,
+        imitates: None,
     }),
     steady: &[Steady::Design(with_polymer)],
     extent: Extent::everywhere,

@@ -27,6 +27,7 @@ pub(super) const AIR_PATH: Named = Named {
         nowhere: 1.0,
         nudge: Some(coordinate(1.02)),
         factor_on: Some(Parameter::MediumConductivity),
+        imitates: Some(moving),
     }),
     steady: &[Steady::Design(with_air)],
     extent: Extent::everywhere,
@@ -52,6 +53,12 @@ fn applies(design: &Design) -> bool {
 /// Coordinate in which the response is smooth.
 pub(crate) fn coordinate(factor: f64) -> f64 {
     factor.max(1e-3).ln()
+}
+
+/// Air that moves: a film that conducts as much over the gap, on every surface alike, where still air conducts more past edges.
+fn moving(design: &Design, factor: f64) -> String {
+    let still = &design.surroundings;
+    format!("air that moves, drawn as heat.film_w_per_m2k: Some({:.1})", factor * still.conductivity / still.margin)
 }
 
 /// Surroundings that conduct better by a factor.

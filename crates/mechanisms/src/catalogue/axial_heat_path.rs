@@ -28,6 +28,7 @@ pub(super) const AXIAL_HEAT_PATH: Named = Named {
         nowhere: 0.0,
         nudge: Some(coordinate(0.1)),
         factor_on: None,
+        imitates: None,
     }),
     steady: &[Steady::Design(|design, conductance| with_mount(design, 0, conductance))],
     extent: Extent::everywhere,

@@ -27,6 +27,7 @@ pub(super) const INTERFACE_RESISTANCE: Named = Named {
         nowhere: 0.0,
         nudge: Some(coordinate(2e-4)),
         factor_on: None,
+        imitates: None,
     }),
     steady: &[Steady::Design(with_hub_resistance)],
     extent: Extent::everywhere,

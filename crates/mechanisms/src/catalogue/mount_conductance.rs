@@ -28,6 +28,7 @@ pub(super) const MOUNT_CONDUCTANCE: Named = Named {
         nowhere: 1.0,
         nudge: Some(coordinate(1.1)),
         factor_on: None,
+        imitates: None,
     }),
     steady: &[Steady::Design(|design, factor| with_factor(design, 0, factor))],
     extent: Extent::everywhere,

@@ -10,49 +10,49 @@ use crate::record_to_bias::Prepared;
 use crate::series::lagged;
 use std::sync::{Arc, OnceLock};
 
-/// Share of a constant's tolerance by which it may go before it follows its path of heat, and the share of itself if that is less: over it the path bends by
-/// little more than a percent.
-const LINEAR: [f64; 2] = [0.25, 0.025];
 /// Change of the thermometer by a constant's tolerance below which that changes no temperature \[K\]: rounding.
 const COLD_K: f64 = 1e-9;
+/// Least factor on a constant that goes along a path of heat.
+const LEAST: f64 = 1e-3;
 /// Constants that are moved from where others are known.
 const FEW: usize = 2;
 
 impl Gyro<'_> {
-    /// The derivative by a constant in which the model is linear, and by how much it goes from one value to another, as told; `None` if a path of heat
-    /// follows it.
-    fn slope<'a>(&self, record: &'a Prepared, k: usize, way: [f64; 2]) -> Option<(&'a Series, f64)> {
-        if self.factored.iter().any(|(place, _)| *place == k) {
-            return None;
-        }
-        let [from, to] = self.values(k, way);
-        Some((&record.slopes[k], to - from))
+    /// The derivative by a constant, and by how much it goes from one value to another, as told.
+    fn slope<'a>(&self, record: &'a Prepared, k: usize, way: [f64; 2]) -> (&'a Series, f64) {
+        let [from, to] = way.map(|told| self.library().constants[k].value(told));
+        (&record.slopes[k], to - from)
     }
 
-    fn values(&self, k: usize, way: [f64; 2]) -> [f64; 2] {
-        way.map(|told| self.library().constants[k].value(told))
+    /// Adds what constants change, those at `moved`, on their way from some values to others, as told.
+    ///
+    /// Where a path of heat follows one of them, all go along the path as far as they do to the temperatures what that one does, each by the logarithm of
+    /// itself: the path bends, and what makes up for each other, such as a gap as much wider as what fills it conducts better, stays where it is on it.
+    /// Beyond that, each is linear. So to first order each does what its derivative says.
+    fn change_constants(&self, record: &Prepared, moved: &[usize], [from, to]: [&[f64]; 2], series: &mut Series) {
+        let mut linear: Vec<_> = moved.iter().map(|k| self.slope(record, *k, [from[*k], to[*k]])).collect();
+        if let Some((place, id)) = self.factored.first() {
+            let alike: f64 = moved.iter().zip(&linear).map(|(k, (_, by))| record.alike[*k] * by).sum();
+            linear.push((&record.slopes[*place], -alike));
+            let [ahead, behind] = [to, from].map(|told| self.coordinate(record, *place, told));
+            if ahead != behind {
+                for (coordinate, sign) in [(ahead, 1.0), (behind, -1.0)] {
+                    let Change { parts, thermometer, .. } = self.chain.along(record, id, 0, coordinate);
+                    series.change(&Series { sensor: thermometer.unwrap_or_default(), parts }, sign);
+                }
+            }
+        }
+        series.change_by_all(&linear);
     }
 
-    /// Adds what a constant changes that a path of heat follows, on its way from one value to another, as told. Near the value that the model is made about
-    /// it is linear, as all other constants are: what they change together, each by as much as the others make up for, stays nothing there.
-    fn move_along_path(&self, record: &Prepared, k: usize, way: [f64; 2], series: &mut Series) {
-        let [from, to] = self.values(k, way);
-        let Some((_, id)) = self.factored.iter().find(|(place, _)| *place == k) else { return };
-        let constant = &self.library().constants[k];
-        // rounding is no change
-        if (to - from).abs() <= 1e-9 * constant.tolerance {
-            return;
-        }
-        let near = (LINEAR[0] * constant.tolerance).min(LINEAR[1] * constant.drawn);
-        let own = constant.parameter.of(self.library().unchanged()).unwrap_or(constant.drawn);
-        for (value, sign) in [(to, 1.0), (from, -1.0)] {
-            let by = value - own;
-            let far = (by / near).powi(4);
-            let along = far / (1.0 + far);
-            let Change { parts, thermometer, .. } = self.chain.along(record, id, 0, (value / constant.drawn).ln());
-            series.change(&Series { sensor: thermometer.unwrap_or_default(), parts }, sign * along);
-            series.change(&record.slopes[k], sign * by * (1.0 - along));
-        }
+    /// Where constants, as told, are on the path of heat that follows the one at `place`.
+    fn coordinate(&self, record: &Prepared, place: usize, told: &[f64]) -> f64 {
+        let (constants, own) = (&self.library().constants, self.library().values());
+        let of = |k: usize| {
+            let elasticity = record.alike[k] * own[k] / own[place];
+            if elasticity == 0.0 { 0.0 } else { elasticity * (constants[k].value(told[k]) / own[k]).max(LEAST).ln() }
+        };
+        (own[place] / constants[place].drawn).ln() + (0..told.len()).map(of).sum::<f64>()
     }
 
     /// Parts and thermometer with the design's constants at those of `u`; kept for as long as other numbers are varied, or one of them.
@@ -63,25 +63,13 @@ impl Gyro<'_> {
         let differs = |known: &[f64]| (0..told.len()).filter(|k| known[*k] != told[*k]).collect::<Vec<_>>();
         if let Some((_, known, series)) = moved.iter().find(|(own, known, _)| *own == record && differs(known).len() <= FEW) {
             let mut series = series.clone();
-            for k in differs(known) {
-                let way = [known[k], told[k]];
-                match self.slope(prepared, k, way) {
-                    Some((slope, by)) => series.change(slope, by),
-                    None => self.move_along_path(prepared, k, way, &mut series),
-                }
-            }
+            self.change_constants(prepared, &differs(known), [known, told], &mut series);
             return series;
         }
         let mut series = prepared.nominal.clone();
-        let mut linear = Vec::new();
-        for (k, (constant, value)) in self.library().constants.iter().zip(self.library().values()).enumerate() {
-            let way = [constant.told(value), told[k]];
-            match self.slope(prepared, k, way) {
-                Some(slope) => linear.push(slope),
-                None => self.move_along_path(prepared, k, way, &mut series),
-            }
-        }
-        series.change_by_all(&linear);
+        let own: Vec<f64> =
+            self.library().constants.iter().zip(self.library().values()).map(|(c, value)| c.told(value)).collect();
+        self.change_constants(prepared, &(0..told.len()).collect::<Vec<_>>(), [&own, told], &mut series);
         moved.retain(|(own, ..)| *own != record);
         moved.push((record, told.to_vec(), series.clone()));
         series
@@ -151,7 +139,7 @@ impl Gyro<'_> {
             let record = &self.records[here.record];
             let constants = self.library().constants.iter().zip(self.library().values()).enumerate();
             let of = |(k, (constant, value)): (usize, (&Constant, f64))| {
-                let slope = self.slope(record, k, [constant.told(value), told[k]])?;
+                let slope = self.slope(record, k, [constant.told(value), told[k]]);
                 slope.0.sensor.iter().all(|t| t.abs() * constant.tolerance < COLD_K).then_some(slope)
             };
             let mut mechanical = record.nominal.nothing();

@@ -155,11 +155,12 @@ fn a_drawn_mount_follows_the_chain() {
     assert!(off < 1e-3 * effect, "{off:e} of {effect:e}");
 }
 
-/// Temperatures stay where all conductivities and heat capacities change alike: so they do by the model, to first order beside the values that it is made
-/// about, though a path of heat follows one of these constants. Else intervals of all of them come out too narrow.
+const AIR: &str = "conductivity of the surroundings";
+
+/// Temperatures stay where all conductivities and heat capacities change alike: so they do by the model, by however much, though a path of heat follows one
+/// of these constants and the others are linear. Else intervals of all of them come out too narrow.
 #[test]
 fn exact_what_conducts_and_what_stores_change_alike_without_a_trace() {
-    const AIR: &str = "conductivity of the surroundings";
     let alike = [
         "k_r",
         "specific heat of the coil",
@@ -170,17 +171,74 @@ fn exact_what_conducts_and_what_stores_change_alike_without_a_trace() {
     ];
     let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let place = |name: &str| gyro.nuisances().iter().position(|n| n.parameter.name == name).expect("a constant");
-    let drawn: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
-    let mut here = drawn.clone();
-    here[place(AIR)] *= 1.008;
-    let slope = |names: &[&str]| {
-        let [low, high] = [-1e-3, 1e-3].map(|by| {
-            let mut u = here.clone();
-            names.iter().for_each(|name| u[place(name)] += by * drawn[place(name)]);
+    let mut here: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let change = |here: &[f64], names: &[&str], by: f64| {
+        let [low, high] = [1.0 - by, 1.0 + by].map(|factor| {
+            let mut u = here.to_vec();
+            names.iter().for_each(|name| u[place(name)] *= factor);
             gyro.respond(0, &u, &[]).expect("response").swap_remove(SPOOL)
         });
         rms(&minus(&high, &low))
     };
-    let [all, one] = [slope(&alike), slope(&[AIR])];
+    // where the model is made, all together by a percent and by many
+    for by in [1e-3, 0.01, 0.05] {
+        let [all, one] = [change(&here, &alike, by), change(&here, &[AIR], by)];
+        assert!(all < 1e-3 * one, "by {by}: {all:e} of {one:e}");
+    }
+    here[place(AIR)] *= 1.008;
+    let [all, one] = [change(&here, &alike, 1e-3), change(&here, &[AIR], 1e-3)];
     assert!(all < 1e-3 * one, "{all:e} of {one:e}");
+}
+
+/// A gap that is wider, of a medium that conducts better, leaves the temperatures nearly as they are, as far as its tolerance goes and beside any factor:
+/// no record tells the two apart, and what the model made of them would be taken for knowledge.
+#[test]
+fn a_wider_gap_that_conducts_better_follows_the_chain() {
+    const FACTOR: f64 = 2.9;
+    const MORE: f64 = 1.04;
+    const WIDER: f64 = 1.06;
+    let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mechanism = gyro.find("air-path").expect("offered");
+    let air = |factor: f64| [Active { mechanism, values: vec![factor], choice: None }];
+    let place = gyro.nuisances().iter().position(|n| n.parameter.name == "margin [mm]").expect("a constant");
+    let drawn: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
+    let about = gyro.about(&drawn, &air(FACTOR)).expect("a model").expect("another place");
+    let told = |more: f64, wider: f64| {
+        let mut u = drawn.clone();
+        u[place] *= wider;
+        about.respond(0, &u, &air(FACTOR * more)).expect("response")
+    };
+    let exact = |more: f64, wider: f64| {
+        let mut design = reference();
+        design.surroundings.conductivity *= FACTOR * more;
+        design.surroundings.margin *= wider;
+        anew(&design)
+    };
+    let (told_here, exact_here) = (told(1.0, 1.0), exact(1.0, 1.0));
+    let (told_both, exact_both, exact_one) = (told(MORE, WIDER), exact(MORE, WIDER), exact(MORE, 1.0));
+    for channel in [SPOOL, RATE] {
+        let change = |of: &[Vec<f64>], from: &[Vec<f64>]| minus(&of[channel], &from[channel]);
+        let one = rms(&change(&exact_one, &exact_here));
+        let both = change(&exact_both, &exact_here);
+        assert!(rms(&both) < 0.1 * one, "{} of {one}", rms(&both));
+        let off = rms(&minus(&change(&told_both, &told_here), &both));
+        assert!(off < 0.01 * one, "{off} of {one}");
+    }
+}
+
+/// A film as the mechanism words it, in place of still air: of what the factor does it leaves little, and is not the same.
+#[test]
+fn air_that_conducts_better_imitates_the_film_that_it_names() {
+    const FACTOR: f64 = 2.9;
+    let path = mechanisms::find("air-path").and_then(|own| own.facts().heat_path).expect("a path of heat");
+    let drawing = reference();
+    let said = path.imitates.expect("a film")(&drawing, FACTOR);
+    let film = said.split_once("heat.film_w_per_m2k: Some(").and_then(|(_, of)| of.strip_suffix(')')?.parse().ok());
+    let (mut moving, mut still) = (drawing.clone(), drawing.clone());
+    moving.heat.film = film;
+    still.surroundings.conductivity *= FACTOR;
+    assert!(film.is_some(), "{said}");
+    let [drawn, moving, still] = [&drawing, &moving, &still].map(anew);
+    let [off, effect] = [&moving, &drawn].map(|other| rms(&minus(&still[SPOOL], &other[SPOOL])));
+    assert!(off < 0.2 * effect && off > 1e-3 * effect, "{off} of {effect}");
 }
