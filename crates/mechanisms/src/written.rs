@@ -278,12 +278,7 @@ impl Mechanism for Written {
             let wider = change.per_expansion.get_or_insert_with(|| Change::none(record).parts);
             for (n, share) in means(record, &run, &open).into_iter().enumerate() {
                 let w = share_weights(openings, share);
-                for (w, opened) in w.iter().zip(openings) {
-                    for p in 0..3 {
-                        change.parts[p][n] += w * opened.drawn[p][n];
-                        wider[p][n] += w * opened.per_expansion[p][n];
-                    }
-                }
+                w.iter().zip(openings).for_each(|(w, opened)| opened.add_to([&mut change.parts, &mut *wider], n, *w));
             }
         }
         let factor = |target: Target| {

@@ -79,6 +79,15 @@ fn with_first_opening(design: &Design, fraction: f64) -> Design {
     flanges(design).first().map_or_else(|| design.clone(), |side| with_opening(design, *side, below, hysteresis, fraction))
 }
 
+impl Opened<Parts> {
+    /// Adds so much of it in a row: to the change as it is, and to that per relative change of the coil's transverse expansion.
+    pub(crate) fn add_to(&self, [change, wider]: [&mut Parts; 2], row: usize, weight: f64) {
+        for (sum, parts) in [(change, &self.drawn), (wider, &self.per_expansion)] {
+            sum.iter_mut().zip(parts).for_each(|(sum, part)| sum[row] += weight * part[row]);
+        }
+    }
+}
+
 /// Weights of the openings at an open share.
 pub(crate) fn share_weights<T>(openings: &[Opened<T>], share: f64) -> Vec<f64> {
     // nothing open changes nothing
@@ -107,10 +116,7 @@ fn opened(record: &Prepared, place: usize, below: f64, hysteresis: f64, share: f
         };
         if part > 0.0 {
             for (w, opened) in w.iter().zip(openings).filter(|(w, _)| **w != 0.0) {
-                for p in 0..3 {
-                    change[p][n] += part * w * opened.drawn[p][n];
-                    wider[p][n] += part * w * opened.per_expansion[p][n];
-                }
+                opened.add_to([&mut change, &mut wider], n, part * w);
             }
         }
     }

@@ -87,7 +87,7 @@ fn exact_a_law_that_says_what_a_mechanism_says_does_what_it_does() {
 
 #[test]
 fn a_law_is_offered_where_the_design_has_its_place() {
-    let scene = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).scene().clone();
+    let scene = *gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).scene();
     let drawn = super::design();
     let mut relaxing = drawn.clone();
     relaxing.mechanics = Mechanics::Relaxing { fraction: 0.3, time: 9000.0 };
