@@ -1,6 +1,6 @@
-//! Parameters of the best explanation, with the doubt about a mechanism's choice in their intervals.
+//! Parameters of the best explanation, with the doubt about a mechanism's choice, and about which of several minima is the true one, in their intervals.
 
-use crate::fit::Unknown;
+use crate::fit::{Fit, Unknown};
 use crate::{Candidate, Estimate, ForwardModel, Prior};
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -9,13 +9,13 @@ const ENDS: [f64; 2] = [0.05, 0.95];
 /// Halvings that find a quantile.
 const HALVINGS: usize = 60;
 
-/// Estimates of the mechanism at `place` in `candidates[0]`. Where the mechanism has a choice, intervals are those of the mixture over
-/// all candidates that differ in choices only.
-pub(crate) fn estimates(model: &dyn ForwardModel, candidates: &[Candidate], place: usize) -> Vec<Estimate> {
+/// Estimates of the mechanism at `place` in `candidates[0]`. Where the mechanism has a choice, or that candidate's fit ends `elsewhere`, too, intervals are those of
+/// the mixture over all candidates that differ in choices only, and over those minima, by their evidence.
+pub(crate) fn estimates(model: &dyn ForwardModel, candidates: &[Candidate], elsewhere: &[Fit], place: usize) -> Vec<Estimate> {
     let best = &candidates[0].fit;
     let mut estimates = best.estimates(model, place);
     let (mechanism, choice) = best.hypothesis.mechanisms[place];
-    if choice.is_none() {
+    if choice.is_none() && elsewhere.is_empty() {
         return estimates;
     }
     let like = |c: &&Candidate| {
@@ -23,19 +23,23 @@ pub(crate) fn estimates(model: &dyn ForwardModel, candidates: &[Candidate], plac
             && c.fit.hypothesis.numbers() == best.hypothesis.numbers()
             && c.fit.hypothesis.constants_free == best.hypothesis.constants_free
     };
-    let kin: Vec<(&Candidate, usize)> = candidates
+    let others = elsewhere.iter().map(|fit| (fit, candidates[0].probability * (fit.log_evidence - best.log_evidence).exp()));
+    let kin: Vec<(&Fit, f64, usize)> = candidates
         .iter()
         .filter(like)
-        .filter_map(|c| Some((c, c.fit.hypothesis.mechanisms.iter().position(|m| m.0 == mechanism)?)))
+        .map(|c| (&c.fit, c.probability))
+        .chain(others)
+        .filter_map(|(fit, p)| Some((fit, p, fit.hypothesis.mechanisms.iter().position(|m| m.0 == mechanism)?)))
         .collect();
-    let sum: f64 = kin.iter().map(|(c, _)| c.probability).sum();
+    let sum: f64 = kin.iter().map(|(_, p, _)| p).sum();
     if sum.is_nan() || sum <= 0.0 {
         return estimates;
     }
     let mut choices: Vec<(f64, f64)> =
-        kin.iter().filter_map(|(c, at)| Some((c.fit.hypothesis.mechanisms[*at].1?, c.probability / sum))).collect();
+        kin.iter().filter_map(|(fit, p, at)| Some((fit.hypothesis.mechanisms[*at].1?, p / sum))).collect();
     choices.sort_by(|a, b| a.0.total_cmp(&b.0));
-    if let Some(first) = estimates.first_mut() {
+    let is_chosen = choice.is_some();
+    if let Some(first) = estimates.first_mut().filter(|_| is_chosen) {
         first.ci90 = ENDS.map(|end| {
             let mut below = 0.0;
             let reached = choices.iter().find(|(_, p)| {
@@ -45,18 +49,17 @@ pub(crate) fn estimates(model: &dyn ForwardModel, candidates: &[Candidate], plac
             reached.or(choices.last()).map_or(first.value, |c| c.0)
         });
     }
-    for (parameter, estimate) in estimates.iter_mut().skip(1).enumerate() {
+    for (parameter, estimate) in estimates.iter_mut().skip(usize::from(is_chosen)).enumerate() {
         let prior = model.mechanisms()[mechanism].parameters[parameter].prior;
         let normals: Vec<(Normal, f64)> =
-            kin.iter().filter_map(|(c, at)| normal(c, *at, parameter).map(|n| (n, c.probability / sum))).collect();
+            kin.iter().filter_map(|(fit, p, at)| normal(fit, *at, parameter).map(|n| (n, p / sum))).collect();
         estimate.ci90 = ENDS.map(|end| quantile(&prior, &normals, end));
     }
     estimates
 }
 
-/// Posterior of a parameter's u in one candidate.
-fn normal(candidate: &Candidate, place: usize, parameter: usize) -> Option<Normal> {
-    let fit = &candidate.fit;
+/// Posterior of a parameter's u in one fit.
+fn normal(fit: &Fit, place: usize, parameter: usize) -> Option<Normal> {
     let at = fit.layout.iter().position(|u| *u == Unknown::Mechanism { place, parameter })?;
     Normal::new(fit.u[at], fit.covariance[(at, at)].max(f64::MIN_POSITIVE).sqrt()).ok()
 }
@@ -103,7 +106,7 @@ mod tests {
         let mut model = library(&[true, true]);
         model.0[0].choice = Some(("place".into(), (0..10).map(f64::from).collect()));
         model.0[0].parameters = vec![Parameter::new("size", PRIOR)];
-        estimates(&model, candidates, 0).try_into().expect("a choice and a size")
+        estimates(&model, candidates, &[], 0).try_into().expect("a choice and a size")
     }
 
     /// Ends of what a candidate at u = 0 says of its size.

@@ -1,7 +1,7 @@
 //! One hypothesis fitted to the records, and its evidence.
 //!
 //! [`checked`]: what cannot be fitted; [`hypothesis`]: the mechanisms at work; [`unknowns`]: the quantities to find, and [`beforehand`] their prior; [`objective`]: the function to minimise, with its
-//! [`derivatives`], found by [`differences`]; from [`starts`] by [`descent`], and beside [`kinks`]: how; [`laplace`]: the evidence; [`fitter`]: all together; [`unseen`]: what it foretells. [`mod@sampled`] checks it.
+//! [`derivatives`], found by [`differences`]; from [`starts`] by [`descent`], and beside [`kinks`]: how; other minima: [`turned`]; [`laplace`]: the evidence; [`fitter`]: all together; [`unseen`]: what it foretells. [`mod@sampled`] checks it.
 
 mod beforehand;
 pub(crate) mod checked;
@@ -15,6 +15,7 @@ mod laplace;
 mod objective;
 mod sampled;
 mod starts;
+mod turned;
 mod unknowns;
 mod unseen;
 

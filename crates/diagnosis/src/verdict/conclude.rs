@@ -36,7 +36,9 @@ impl Diagnosis {
             Verdict::None | Verdict::Recalibrate => Vec::new(),
         };
         let best = &candidates[0].fit;
-        let parameters = (0..best.active.len()).map(|place| crate::marginal::estimates(model, &candidates, place)).collect();
+        let elsewhere = fitter.elsewhere(best)?;
+        let parameters =
+            (0..best.active.len()).map(|place| crate::marginal::estimates(model, &candidates, &elsewhere, place)).collect();
         let mismatch = fitter.fit(&Hypothesis::NOMINAL, &best.noise, Some(&nominal))?;
         let stages = mismatch.stages(model, fitter.records, fitter.observations)?;
         let excluded = settings.excluded;

@@ -175,8 +175,9 @@ impl Diagnosis {
             self.candidates[..=at].rotate_right(1);
         }
         self.set.clear();
-        self.parameters =
-            (0..self.best().fit.active.len()).map(|place| crate::marginal::estimates(model, &self.candidates, place)).collect();
+        self.parameters = (0..self.best().fit.active.len())
+            .map(|place| crate::marginal::estimates(model, &self.candidates, &[], place))
+            .collect();
     }
 
     /// Whether the unknown is a structure beside mechanisms that have a name.
