@@ -118,6 +118,21 @@ mod tests {
         assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9), "{a:?} {b:?}");
     }
 
+    /// Two minima of one mechanism, as likely as each other: a tenth of either lies beyond an end.
+    #[test]
+    fn exact_an_interval_is_that_of_all_minima() {
+        let at = |u: f64| {
+            let mut candidate = choosing(u, 0.0, 1.0);
+            candidate.fit.hypothesis.mechanisms = vec![(0, None)];
+            candidate.fit.active[0].choice = None;
+            candidate
+        };
+        let mut model = library(&[true, true]);
+        model.0[0].parameters = vec![Parameter::new("size", PRIOR)];
+        let [found] = &estimates(&model, &[at(0.0)], &[at(1.0).fit], 0)[..] else { panic!("a size") };
+        near(found.ci90, [-1.281_551_565_545 * NARROW, 1.0 + 1.281_551_565_545 * NARROW].map(|u| PRIOR.value(u)));
+    }
+
     /// A half of all probability, of which five choices have so much that the ends of the interval are in the middle of the second and of the last but
     /// one: there the size is the one of these. All else has the other half.
     #[test]

@@ -1,7 +1,7 @@
 //! Fits and samples of a mechanism whose misfit has several minima, each of a known place, width and depth.
 
 use crate::common::valleys::Valleys;
-use diagnosis::{Samples, sampled};
+use diagnosis::{Observation, Samples, Settings, diagnose, sampled};
 
 /// Depth of the first valley's ground: −ln p there.
 const GROUND: f64 = 8.0;
@@ -122,4 +122,20 @@ fn walks_begin_farther_from_the_minimum_than_the_posterior_reaches() {
     let spread = (begun.iter().map(|x| x * x).sum::<f64>() / begun.len() as f64).sqrt();
     // of 400 beginnings: known to 4 %
     assert!((spread - 1.5).abs() < 0.2, "{spread}");
+}
+
+/// A parameter that acts by its square alone is as likely of either sign: the interval holds both, that of another parameter is none the wider.
+#[test]
+fn an_interval_holds_every_value_that_does_the_same() {
+    let model = Valleys::new(&[&[1.5, 0.3], &[-1.5, 0.3]], &[], |p| {
+        let [square, other] = [10.0 * p[0] * p[0], 5.0 * p[1]];
+        [square, square, square, square, other, other, other, other]
+    });
+    let seen = vec![10.0, 10.0, 10.0, 10.0, 5.0, 5.0, 5.0, 5.0];
+    let record = Observation { channels: vec![seen], ..Valleys::record() };
+    let found = diagnose(&model, &[0], &[record], &Settings::default(), &|_| ()).expect("a diagnosis");
+    let [twofold, other] = &found.parameters[0][..] else { panic!("two parameters") };
+    assert!((twofold.value.abs() - 1.0).abs() < 0.05, "{twofold:?}");
+    assert!(twofold.ci90[0] < -1.0 && twofold.ci90[1] > 1.0 && twofold.ci90[1] - twofold.ci90[0] < 2.3, "{twofold:?}");
+    assert!(other.ci90[0] < 1.0 && other.ci90[1] > 1.0 && other.ci90[1] - other.ci90[0] < 0.5, "{other:?}");
 }
