@@ -8,10 +8,10 @@ use crate::record_to_bias::Prepared;
 pub struct Change {
     /// Change of the bias: Shupe, elasto-optic axial and radial \[deg/h\].
     pub parts: Parts,
+    /// What is added to that for a relative change of the coil's transverse expansion by 1 \[deg/h\]; `None` if nothing is.
+    pub per_expansion: Option<Parts>,
     /// Change of the spool's thermometer \[K\]; `None` if there is none.
     pub thermometer: Option<Vec<f64>>,
-    /// The same of the bias for each relative change of the coil's transverse expansion \[deg/h\]; `None` if it takes no part.
-    pub per_expansion: Option<Parts>,
     /// Change of the rate beside the bias \[deg/h\]; `None` if there is none.
     pub rate: Option<Vec<f64>>,
 }
