@@ -52,16 +52,16 @@ pub(crate) fn estimates(model: &dyn ForwardModel, candidates: &[Candidate], else
     for (parameter, estimate) in estimates.iter_mut().skip(usize::from(is_chosen)).enumerate() {
         let prior = model.mechanisms()[mechanism].parameters[parameter].prior;
         let normals: Vec<(Normal, f64)> =
-            kin.iter().filter_map(|(fit, p, at)| normal(fit, *at, parameter).map(|n| (n, p / sum))).collect();
+            kin.iter().filter_map(|(fit, p, at)| normal(model, fit, *at, parameter).map(|n| (n, p / sum))).collect();
         estimate.ci90 = ENDS.map(|end| quantile(&prior, &normals, end));
     }
     estimates
 }
 
 /// Posterior of a parameter's u in one fit.
-fn normal(fit: &Fit, place: usize, parameter: usize) -> Option<Normal> {
+fn normal(model: &dyn ForwardModel, fit: &Fit, place: usize, parameter: usize) -> Option<Normal> {
     let at = fit.layout.iter().position(|u| *u == Unknown::Mechanism { place, parameter })?;
-    Normal::new(fit.u[at], fit.covariance[(at, at)].max(f64::MIN_POSITIVE).sqrt()).ok()
+    Normal::new(fit.u[at], fit.deviation(model, at).max(f64::MIN_POSITIVE)).ok()
 }
 
 /// Value below which a share of a mixture lies.

@@ -142,6 +142,12 @@ pub trait ForwardModel {
         false
     }
 
+    /// Changes of a mechanism's parameters, in their order, by one unit of a nuisance while the mechanism's effect stays where the records hold it: a
+    /// threshold goes with a temperature that no record tells. Empty if nothing changes.
+    fn carries(&self, _nuisance: usize, _active: &Active) -> Vec<f64> {
+        Vec::new()
+    }
+
     /// Response of every channel, `[channel][row]`, at the instants of a record, with nuisances at given values and mechanisms at work.
     ///
     /// # Errors

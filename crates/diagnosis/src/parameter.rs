@@ -1,6 +1,6 @@
 //! Parameters and their priors.
 
-use statrs::distribution::{ContinuousCDF, Normal};
+use statrs::distribution::{Continuous, ContinuousCDF, Normal};
 
 /// Prior distribution of a parameter, before a recording is seen. Each is the image of a standard normal variable u, so that every
 /// parameter is fitted on one scale.
@@ -79,6 +79,17 @@ impl Prior {
             Prior::Size { scale } => scale * u.sinh() / SINH_1,
             Prior::LogNormal { median, spread } => median * (spread * u).exp(),
             Prior::Uniform { low, high } => low + (high - low) * Normal::standard().cdf(u),
+        }
+    }
+
+    /// Change of the value by one of u, at u.
+    pub(crate) fn slope(&self, u: f64) -> f64 {
+        match *self {
+            _ if u.abs() > MOST => 0.0,
+            Prior::Normal { sd, .. } => sd,
+            Prior::Size { scale } => scale * u.cosh() / SINH_1,
+            Prior::LogNormal { spread, .. } => spread * self.value(u),
+            Prior::Uniform { low, high } => (high - low) * Normal::standard().pdf(u),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use crate::fit::{Fit, Unknown, parameter};
 use crate::{ForwardModel, Prior, Role};
+use nalgebra::DVector;
 use recording::statistics::normal_quantile;
 
 /// A parameter with its 90 % interval.
@@ -55,6 +56,24 @@ impl Posterior {
 }
 
 impl Fit {
+    /// Standard deviation of an unknown's u: of a mechanism's parameter with that by which nuisances carry it along ([`ForwardModel::carries`]).
+    pub(crate) fn deviation(&self, model: &dyn ForwardModel, i: usize) -> f64 {
+        let mut way = DVector::zeros(self.layout.len());
+        way[i] = 1.0;
+        let slope = |j: usize| parameter(model, &self.hypothesis, self.layout[j]).map_or(0.0, |p| p.prior.slope(self.u[j]));
+        if let Unknown::Mechanism { place, parameter } = self.layout[i]
+            && slope(i) > 0.0
+            && let Some(active) = self.active.get(place)
+        {
+            for (j, unknown) in self.layout.iter().enumerate() {
+                let Unknown::Nuisance { number, record: None } = *unknown else { continue };
+                let by = model.carries(number, active).get(parameter).copied().unwrap_or_default();
+                way[j] = by * slope(j) / slope(i);
+            }
+        }
+        way.dot(&(&self.covariance * &way)).max(0.0).sqrt()
+    }
+
     /// Every unknown but the channels' offsets.
     pub fn posteriors(&self, model: &dyn ForwardModel) -> Vec<Posterior> {
         let of = |(i, unknown): (usize, &Unknown)| {
@@ -64,7 +83,7 @@ impl Fit {
                 Unknown::Offset { .. } => return None,
             };
             let crate::Parameter { name, prior, .. } = parameter(model, &self.hypothesis, *unknown)?;
-            let sd = self.covariance[(i, i)].max(0.0).sqrt();
+            let sd = self.deviation(model, i);
             Some(Posterior { name: name.clone(), place, record, prior: *prior, u: self.u[i], sd })
         };
         self.layout.iter().enumerate().filter_map(of).collect()

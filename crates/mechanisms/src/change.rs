@@ -12,8 +12,21 @@ pub struct Change {
     pub per_expansion: Option<Parts>,
     /// Change of the spool's thermometer \[K\]; `None` if there is none.
     pub thermometer: Option<Vec<f64>>,
+    /// Thresholds that the coil passes.
+    pub thresholds: Vec<Threshold>,
     /// Change of the rate beside the bias \[deg/h\]; `None` if there is none.
     pub rate: Option<Vec<f64>>,
+}
+
+/// A passage of a threshold on the coil's mean temperature, which no record tells.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Threshold {
+    /// Row in which it is passed.
+    pub row: usize,
+    /// Which it is, from 0.
+    pub number: usize,
+    /// Change of each of the mechanism's parameters by a kelvin that the coil is warmer then, where its effect stays.
+    pub parameters: Vec<f64>,
 }
 
 impl Change {
@@ -24,7 +37,7 @@ impl Change {
 
     /// The bias changes alone.
     pub fn of_parts(parts: Parts) -> Self {
-        Self { parts, thermometer: None, per_expansion: None, rate: None }
+        Self { parts, thermometer: None, per_expansion: None, thresholds: Vec::new(), rate: None }
     }
 
     /// The rate changes, but no part of the bias.

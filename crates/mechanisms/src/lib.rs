@@ -27,7 +27,7 @@ mod written;
 pub use build::ranges;
 pub use catalogue::{CATALOGUE, ON_REQUEST, find, usual_coefficient};
 pub use chamber::Chamber;
-pub use change::Change;
+pub use change::{Change, Threshold};
 pub use constants::{number_of, with_constant};
 pub use course::{Delay, Parts, RATE, SPOOL};
 pub use design::REFERENCE_C;

@@ -33,6 +33,10 @@ pub struct Prepared {
     pub(crate) spread: [f64; 3],
     /// mean temperature of the coil \[°C\]
     pub(crate) coil: Vec<f64>,
+    /// its derivatives by every constant, SI
+    pub(crate) coil_slopes: Vec<Vec<f64>>,
+    /// its change per second by which the chamber's readings are later \[K/s\]
+    pub(crate) coil_later: Vec<f64>,
     pub(crate) state: State,
     /// change per kelvin that the start was off the first chamber temperature
     pub(crate) off_rest: Series,
@@ -213,8 +217,10 @@ impl Prepared {
         // everything is linear in what drives it
         let [later, slower] = [later, slower].map(|change| {
             let first = change[0];
-            Course::new(&library.base, &clock, &[change], &[first]).series(&library.base)
+            Course::new(&library.base, &clock, &[change], &[first])
         });
+        let coil_later = later.output(library.base.coil_mean());
+        let [later, slower] = [later, slower].map(|course| course.series(&library.base));
         let paths = library.paths.iter().map(|path| {
             let change = |model: &Option<Reduced>| {
                 minus(model.as_ref().map(|model| run(model).series(model)).as_ref().unwrap_or(&base), &base)
@@ -238,7 +244,8 @@ impl Prepared {
         let second_rates = changing(&first_rates);
         let [longer, sound] = [library.rewound(1.0, None)?, library.rewound(0.0, None)?];
         let tail = course.parts(&[0, 1, 2].map(|p: usize| &longer[p] - &sound[p]));
-        let slopes = clock.slopes(library);
+        let (slopes, coil_slopes) = clock.slopes(library).into_iter().unzip();
+        let slopes: Vec<Series> = slopes;
         let tolerances = library.constants.iter().map(|c| c.tolerance).zip(slopes.iter().map(|slope| &slope.parts));
         let all: Vec<(f64, &Parts)> = tolerances.chain([(tails(library.design(), library.tolerances()), &tail)]).collect();
         let spread = [0, 1, 2].map(|p: usize| all.iter().map(|(sd, by)| sd * sd * product(&by[p], &by[p])).sum());
@@ -273,6 +280,8 @@ impl Prepared {
             rates: [first_rates, second_rates],
             tail,
             coil,
+            coil_slopes,
+            coil_later,
             state: State { level, rate },
         })
     }
@@ -303,8 +312,8 @@ pub fn thermometer_under(library: &Library, time: &[f64], chamber: &[f64]) -> Re
 }
 
 impl Clock {
-    /// Derivatives of thermometer and mean bias parts by every constant, in the rows.
-    fn slopes(&self, library: &Library) -> Vec<Series> {
+    /// Derivatives of thermometer and mean bias parts, and of the coil's mean temperature, by every constant, in the rows.
+    fn slopes(&self, library: &Library) -> Vec<(Series, Vec<f64>)> {
         // derivatives need no steps between the readings
         let kept: Vec<usize> = (0..self.time.len()).step_by(BETWEEN).collect();
         let of = |series: &[f64]| -> Vec<f64> { kept.iter().map(|&n| series[n]).collect() };
@@ -318,9 +327,10 @@ impl Clock {
             };
             spans.iter().map(of).collect()
         };
-        let series = |slope: &coil::Outputs<Vec<f64>>| Series {
-            sensor: spans.iter().map(|[_, n]| slope.thermometer[*n]).collect(),
-            parts: slope.parts[0].each_ref().map(|phase| mean(phase)),
+        let in_rows = |temperature: &[f64]| -> Vec<f64> { spans.iter().map(|[_, n]| temperature[*n]).collect() };
+        let series = |slope: &coil::Outputs<Vec<f64>>| {
+            let parts = slope.parts[0].each_ref().map(|phase| mean(phase));
+            (Series { sensor: in_rows(&slope.thermometer), parts }, in_rows(&slope.coil_mean))
         };
         courses.slopes.iter().map(series).collect()
     }

@@ -116,7 +116,7 @@ impl Mutants {
                 new += 1;
                 if new % SAVED == 0 { keep(name, &of) } else { Ok(()) }
             };
-            self.all_tried(name, &woven, &together, &argued, &mut add)?;
+            self.all_tried(&woven, &together, &argued, &mut add)?;
             if !alone.is_empty() {
                 let which = |&id: &usize| ["--re".to_owned(), format!("^{}$", regex_of(&woven.mutants[id].name))];
                 let which: Vec<String> = alone.iter().flat_map(which).collect();
@@ -137,7 +137,6 @@ impl Mutants {
     /// Tries mutants that one program holds, function by function.
     fn all_tried(
         &self,
-        name: &str,
         woven: &Woven,
         chosen: &[usize],
         argued: &BTreeMap<&str, &str>,
@@ -145,7 +144,7 @@ impl Mutants {
     ) -> Result<(), Failure> {
         let scratch = root().join("target/mutants/reached");
         let slowest = self.slowest.unwrap_or(f64::INFINITY);
-        let tests = Tests::measured(woven.programs.clone(), TOGETHER.contains(&name), self.jobs, slowest, &scratch)?;
+        let tests = Tests::measured(woven.programs.clone(), self.jobs, slowest, &scratch)?;
         let mut functions = BTreeMap::<(&str, &str), Vec<usize>>::new();
         for &id in chosen {
             functions.entry((&woven.mutants[id].file, &woven.mutants[id].function)).or_default().push(id);

@@ -23,6 +23,8 @@ const PATIENCE: (f64, f64) = (20.0, 5.0);
 const FOLLOWED: (f64, f64) = (20.0, 10.0);
 /// Time between two looks at a test that runs.
 const LOOK: Duration = Duration::from_millis(10);
+/// Variables that name the folder of what tests share: what other crates answer, and models, which the crate itself makes.
+const SHARED: [&str; 2] = ["FOGCOIL_KEPT", "FOGCOIL_KEPT_MODELS"];
 /// Most memory of a trial, KiB: a mutant may ask for ever more.
 const MEMORY: usize = 8 << 20;
 
@@ -41,7 +43,11 @@ struct Test {
     name: String,
     /// In seconds; of one that was followed for a while alone, that while.
     takes: f64,
+    /// The same where all that tests share is made in its process, too.
+    anew: f64,
     reaches: BTreeSet<usize>,
+    /// Those that act while models are made which tests share.
+    made: BTreeSet<usize>,
 }
 
 /// The tests of a crate.
@@ -49,8 +55,9 @@ struct Test {
 pub(super) struct Tests {
     programs: Vec<Program>,
     tests: Vec<Test>,
-    /// Whether slow tests share what they make, so that they are run in one process.
-    together: bool,
+    /// The folder of what tests share, which other mutants than the `made` may use.
+    shared: PathBuf,
+    made: BTreeSet<usize>,
 }
 
 impl Program {
@@ -70,17 +77,12 @@ impl Program {
 
 impl Tests {
     /// Runs every test of the programs alone, with no mutant at work, and keeps how long it takes and which it reaches; in the folder `scratch` for the next time.
-    /// A test of far more than `slowest` seconds, which no trial runs, is followed for a while.
+    /// A test of far more than `slowest` seconds, which no trial runs, is followed for a while. What tests share they leave in a folder, and take less time
+    /// the second time.
     ///
     /// # Errors
     /// [`Failure`] if a test fails.
-    pub(super) fn measured(
-        programs: Vec<Program>,
-        together: bool,
-        jobs: usize,
-        slowest: f64,
-        scratch: &Path,
-    ) -> Result<Self, Failure> {
+    pub(super) fn measured(programs: Vec<Program>, jobs: usize, slowest: f64, scratch: &Path) -> Result<Self, Failure> {
         std::fs::create_dir_all(scratch).map_err(failed(scratch))?;
         let mut names = Vec::new();
         let mut hash = Sha256::new_with_prefix(slowest.to_le_bytes());
@@ -89,16 +91,17 @@ impl Tests {
             let ignored = program.listed(&["--ignored"])?;
             names.extend(program.listed(&[])?.difference(&ignored).map(|name| (n, name.clone())));
         }
-        let kept = scratch.join(format!("{}.json", hex(hash)));
+        let hash = hex(hash);
+        let (kept, shared) = (scratch.join(format!("{hash}.json")), scratch.join(hash));
         if let Some(tests) = read(&kept).ok().and_then(|text| serde_json::from_str(&text).ok()) {
-            return Ok(Self { programs, tests, together });
+            return Ok(Self::of(programs, tests, shared));
         }
-        let measure = |(n, name): (usize, String)| -> Result<Test, Failure> {
-            let reached = scratch.join(format!("{n}-{}", name.replace(':', "-")));
-            std::fs::write(&reached, "").map_err(failed(&reached))?;
+        std::fs::create_dir_all(&shared).map_err(failed(&shared))?;
+        let timed = |n: usize, name: &str, reached: Option<&Path>| -> Result<f64, Failure> {
             let start = Instant::now();
             let mut command = programs[n].command();
-            command.args([name.as_str(), "--exact", "--test-threads", "1"]).env("FOGCOIL_REACHED", &reached);
+            command.args([name, "--exact", "--test-threads", "1"]).env(SHARED[0], &shared).env(SHARED[1], &shared);
+            reached.into_iter().for_each(|reached| _ = command.env("FOGCOIL_REACHED", reached));
             let mut child = command.stdout(Stdio::null()).spawn()?;
             let followed = FOLLOWED.0.max(FOLLOWED.1 * slowest);
             let ended = loop {
@@ -115,10 +118,19 @@ impl Tests {
             if !ended {
                 return Err(Failure(format!("{name} of {} fails unchanged", programs[n].path.display())));
             }
-            let takes = start.elapsed().as_secs_f64();
-            let reaches = read(&reached)?.lines().filter_map(|id| id.parse().ok()).collect();
-            std::fs::remove_file(&reached).map_err(failed(&reached))?;
-            Ok(Test { program: n, name, takes, reaches })
+            Ok(start.elapsed().as_secs_f64())
+        };
+        let measure = |(n, name): (usize, String)| -> Result<Test, Failure> {
+            let reached = scratch.join(format!("{n}-{}", name.replace(':', "-")));
+            let made = reached.with_extension("made");
+            [&reached, &made].into_iter().try_for_each(|file| std::fs::write(file, "").map_err(failed(file)))?;
+            let anew = timed(n, &name, Some(&reached))?;
+            let [reaches, made] = [reached, made].map(|file| -> Result<_, Failure> {
+                let ids = read(&file)?.lines().filter_map(|id| id.parse().ok()).collect();
+                std::fs::remove_file(&file).map_err(failed(&file))?;
+                Ok(ids)
+            });
+            Ok(Test { program: n, name, takes: anew, anew, reaches: reaches?, made: made? })
         };
         let queue = Mutex::new(names.into_iter());
         let work = || {
@@ -131,10 +143,19 @@ impl Tests {
             joined.map(|done| done.unwrap_or_else(|_| Err(Failure("a thread panicked".into())))).collect::<Result<Vec<_>, _>>()
         });
         let mut tests: Vec<Test> = measured?.concat();
+        let are_shared = std::fs::read_dir(&shared).map_err(failed(&shared))?.next().is_some();
+        for test in tests.iter_mut().filter(|test| are_shared && test.anew > QUICK) {
+            test.takes = timed(test.program, &test.name, None)?;
+        }
         eprintln!("{} tests, {:.0} s", tests.len(), tests.iter().map(|test| test.takes).sum::<f64>());
         tests.sort_by(|a, b| a.takes.total_cmp(&b.takes));
         write(&kept, &serde_json::to_string(&tests)?)?;
-        Ok(Self { programs, tests, together })
+        Ok(Self::of(programs, tests, shared))
+    }
+
+    fn of(programs: Vec<Program>, tests: Vec<Test>, shared: PathBuf) -> Self {
+        let made = tests.iter().flat_map(|test| test.made.iter().copied()).collect();
+        Self { programs, tests, shared, made }
     }
 
     /// Whether a test fails, or never ends, while a mutant acts; `killers` counts the mutants of this function that each test caught. Tests that take
@@ -153,11 +174,14 @@ impl Tests {
             rounds.push(vec![first]);
             reaching.remove(0);
         }
-        let (quick, mut slow): (Vec<usize>, Vec<usize>) = reaching.into_iter().partition(|&n| self.tests[n].takes < QUICK);
+        let makes = self.made.contains(&id);
+        let takes = |n: usize| if makes { self.tests[n].anew } else { self.tests[n].takes };
+        let (quick, mut slow): (Vec<usize>, Vec<usize>) = reaching.into_iter().partition(|&n| takes(n) < QUICK);
         slow.sort_by(|&a, &b| self.tests[a].takes.total_cmp(&self.tests[b].takes));
         let of = |program: usize, all: &[usize]| all.iter().copied().filter(|&n| self.tests[n].program == program).collect();
         rounds.extend((0..self.programs.len()).map(|program| of(program, &quick)));
-        if self.together {
+        // what tests share is made once in a process
+        if makes {
             rounds.extend((0..self.programs.len()).map(|program| of(program, &slow)));
         } else {
             rounds.extend(slow.into_iter().map(|n| vec![n]));
@@ -173,8 +197,13 @@ impl Tests {
 
     /// The test of those of one program that fails or does not end while a mutant acts.
     fn killer(&self, id: usize, round: &[usize]) -> Result<Option<usize>, Failure> {
-        let usual: f64 = round.iter().map(|&n| self.tests[n].takes).sum();
+        let makes = self.made.contains(&id);
+        let usual: f64 = round.iter().map(|&n| if makes { self.tests[n].anew } else { self.tests[n].takes }).sum();
         let mut command = self.programs[self.tests[round[0]].program].command();
+        command.env(SHARED[0], &self.shared);
+        if !makes {
+            command.env(SHARED[1], &self.shared);
+        }
         command.args(round.iter().map(|&n| self.tests[n].name.as_str())).args(["--exact", "--test-threads", "1"]);
         let mut child = command.env("FOGCOIL_MUTANT", id.to_string()).stdout(Stdio::piped()).spawn()?;
         let (sender, lines) = mpsc::channel();

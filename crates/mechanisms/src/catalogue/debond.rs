@@ -1,6 +1,7 @@
 //! A bond of coil and flange whose outer part opens in the cold.
 
 use crate::Prepared;
+use crate::change::Threshold;
 use crate::course::Parts;
 use crate::design::{bonded_flanges, choice_of, chosen};
 use crate::interpolation::cubic_weights;
@@ -102,6 +103,8 @@ fn opened(record: &Prepared, place: usize, below: f64, hysteresis: f64, share: f
     let mut change: Parts = [0, 1, 2].map(|_| vec![0.0; record.time.len()]);
     let mut wider = change.clone();
     let mut open = record.coil[0] < below;
+    // where it opens and where it closes
+    let mut passed = [Vec::new(), Vec::new()];
     for n in 1..record.time.len() {
         // part of the interval after a threshold is crossed, the temperature being linear in it
         let (from, to) = (record.coil[n - 1], record.coil[n]);
@@ -109,9 +112,11 @@ fn opened(record: &Prepared, place: usize, below: f64, hysteresis: f64, share: f
         let part = if open {
             let closes = to > below + hysteresis;
             open = !closes;
+            passed[1].extend(closes.then_some(n));
             if closes { 1.0 - after(below + hysteresis) } else { 1.0 }
         } else {
             open = to < below;
+            passed[0].extend(open.then_some(n));
             if open { after(below) } else { 0.0 }
         };
         if part > 0.0 {
@@ -120,5 +125,11 @@ fn opened(record: &Prepared, place: usize, below: f64, hysteresis: f64, share: f
             }
         }
     }
-    Change { per_expansion: Some(wider), ..Change::of_parts(change) }
+    // a hysteresis is known where both are
+    let both = if passed.iter().all(|rows| !rows.is_empty()) { 1.0 } else { 0.0 };
+    let of = |(number, parameters): (usize, [f64; 2])| {
+        passed[number].iter().map(move |row| Threshold { row: *row, number, parameters: parameters.to_vec() })
+    };
+    let thresholds = [[1.0, -both], [0.0, both]].into_iter().enumerate().flat_map(of).collect();
+    Change { per_expansion: Some(wider), thresholds, ..Change::of_parts(change) }
 }

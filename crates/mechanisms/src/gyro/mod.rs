@@ -278,6 +278,19 @@ impl<'m> Gyro<'m> {
         Ok(effect)
     }
 
+    /// How much warmer the coil is in a row, per unit of a nuisance as it is told; `None` if the nuisance does not warm it.
+    fn warms<'a>(&'a self, record: &'a Prepared, nuisance: usize) -> Option<Box<dyn Fn(usize) -> f64 + 'a>> {
+        match nuisance {
+            instruments::CHAMBER_DELAY => Some(Box::new(|row| record.coil_later[row])),
+            instruments::CHAMBER_GAIN => Some(Box::new(|row| record.coil[0] - record.coil[row])),
+            _ => {
+                let constant = nuisance.checked_sub(instruments::CONSTANTS)?;
+                let (constant, slope) = (self.library().constants.get(constant)?, &record.coil_slopes[constant]);
+                Some(Box::new(move |row| slope[row] * constant.value(1.0)))
+            }
+        }
+    }
+
     /// Relative change of the coil's transverse expansion from where the models are made.
     fn expansion(&self, u: &[f64]) -> f64 {
         let library = self.library();
@@ -402,6 +415,29 @@ impl ForwardModel for Gyro<'_> {
     /// A rate that may be late is late with what mechanisms add; a small delay acts on the design's part alone.
     fn acts_on_mechanisms(&self, nuisance: usize) -> bool {
         [instruments::RATE_DELAY, instruments::RATE_FILTER].contains(&nuisance) && instruments::may_be_late(&self.nuisances)
+    }
+
+    /// Where the coil passes a threshold, the mean of all passages.
+    fn carries(&self, nuisance: usize, active: &Active) -> Vec<f64> {
+        let mut sums: Vec<(f64, Vec<f64>)> = Vec::new();
+        for (number, record) in self.records.iter().enumerate() {
+            let Some(warms) = self.warms(record, nuisance) else { continue };
+            let Ok(known) = self.effect(number, active) else { continue };
+            for passed in known.change().into_iter().flat_map(|change| &change.thresholds) {
+                if sums.len() <= passed.number {
+                    sums.resize(passed.number + 1, (0.0, vec![0.0; passed.parameters.len()]));
+                }
+                let (count, sum) = &mut sums[passed.number];
+                *count += 1.0;
+                sum.iter_mut().zip(&passed.parameters).for_each(|(sum, by)| *sum += by * warms(passed.row));
+            }
+        }
+        let mut all = Vec::new();
+        for (count, sum) in sums.iter().filter(|(count, _)| *count > 0.0) {
+            all.resize(sum.len().max(all.len()), 0.0);
+            all.iter_mut().zip(sum).for_each(|(all, sum)| *all += sum / count);
+        }
+        all
     }
 
     fn respond(&self, record: usize, u: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Failure> {

@@ -1,7 +1,7 @@
 //! Constants of the design beside a mechanism, against the chain with both.
 
-use super::{anew, design, gyro, minus, rms};
-use coil::Design;
+use super::{anew, course, design, gyro, minus, rms};
+use coil::{Design, Drive, Dynamics, Profile, STANDARD};
 use diagnosis::{Active, ForwardModel};
 use mechanisms::{RATE, with_constant};
 
@@ -55,4 +55,46 @@ fn constants_beside_an_open_bond_follow_the_chain() {
         println!("{name}: {off:.4}");
         assert!(off < bound, "{name}: {off}");
     }
+}
+
+/// A bond's temperatures are those that the coil has where it opens and closes: constants that warm the coil there carry them along.
+#[test]
+fn constants_carry_the_temperatures_at_which_a_bond_opens_and_closes() {
+    const OPENS: f64 = 28.0;
+    const CLOSES: f64 = 36.0;
+    let design = design();
+    let gyro = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let bond =
+        Active { mechanism: gyro.find("debond").expect("offered"), values: vec![OPENS, CLOSES - OPENS, 0.2], choice: None };
+    let coil = |design: &Design| -> Vec<f64> {
+        let (time, chamber) = course();
+        let dynamics = Dynamics::new(design, &[Drive::Chamber], &STANDARD).expect("dynamics");
+        let rows = dynamics.simulate(&Profile { time, drives: vec![chamber] }).expect("run");
+        rows.iter().map(|row| row.coil).collect()
+    };
+    let drawn = coil(&design);
+    let mut open = drawn[0] < OPENS;
+    let mut passed = [Vec::new(), Vec::new()];
+    for n in 1..drawn.len() {
+        if if open { drawn[n] > CLOSES } else { drawn[n] < OPENS } {
+            passed[usize::from(open)].push(n);
+            open = !open;
+        }
+    }
+    assert!(passed.iter().all(|rows| !rows.is_empty()), "{passed:?}");
+    for name in ["k_r", "specific heat of the coil", "conductivity of the surroundings", "spool density", "E_z"] {
+        let place = gyro.nuisances().iter().position(|n| n.parameter.name == name).expect("a constant");
+        let [low, high] = [-0.05, 0.05].map(|by| gyro.nuisances()[place].parameter.prior.value(by));
+        let [colder, warmer] = [low, high].map(|value| coil(&with_constant(&design, name, value).expect("a constant")));
+        let warms = |n: usize| (warmer[n] - colder[n]) / (high - low);
+        let [opens, closes] = passed.each_ref().map(|rows| rows.iter().map(|n| warms(*n)).sum::<f64>() / rows.len() as f64);
+        let told = gyro.carries(place, &bond);
+        println!("{name}: {told:?}, {opens} {closes}");
+        for (told, exact) in told.iter().zip([opens, closes - opens]) {
+            assert!((told - exact).abs() <= 0.02 * opens.abs().max(closes.abs()), "{name}: {told} for {exact}");
+        }
+        assert!(told.len() == 2 || name == "E_z" && told.is_empty(), "{name}");
+    }
+    let lag = gyro.nuisances().iter().position(|n| n.parameter.name == "lag of the spool's thermometer").expect("a sensor");
+    assert!(gyro.carries(lag, &bond).is_empty());
 }

@@ -2,10 +2,10 @@
 
 use coil::{Contact, Flange, Heater, Mount, Side};
 use diagnosis::{Active, ForwardModel};
-use mechanisms::{CATALOGUE, Gyro, Library, RATE, SPOOL};
+use mechanisms::{CATALOGUE, Gyro, RATE, SPOOL};
 
 use super::common::{reference, spool};
-use super::{agree, agrees, anew, gyro, minus, of, recorded, rms, with_mechanism};
+use super::{agree, agrees, anew, gyro, minus, of, recorded, rms, shared, with_mechanism};
 
 #[test]
 fn heat_paths_follow_the_chain() {
@@ -80,7 +80,7 @@ fn heat_paths_of_a_second_flange_follow_the_chain() {
     // no bond that could open: fewer models
     flanges[0].contact = Contact::Gap;
     flanges.push(Flange { side: Side::Left, thickness: 1.5 * flanges[0].thickness, ..flanges[0] });
-    let gyro = of(Library::build(&design, CATALOGUE, &|_| ()).expect("library"), CATALOGUE);
+    let gyro = of(shared::library(&design, CATALOGUE, &|_| ()), CATALOGUE);
     let nominal = anew(&design);
     let mut warmed = Vec::new();
     for (flange, side) in [(1.0, Side::Right), (2.0, Side::Left)] {
@@ -137,7 +137,7 @@ fn a_drawn_mount_follows_the_chain() {
     let mut design = reference();
     let side = spool(&mut design).flanges[0].side;
     design.heat.mounts.push(Mount { side, conductance: 20.0 });
-    let gyro = of(Library::build(&design, CATALOGUE, &|_| ()).expect("library"), CATALOGUE);
+    let gyro = of(shared::library(&design, CATALOGUE, &|_| ()), CATALOGUE);
     assert!(gyro.find("axial-heat-path").is_none());
     let nominal = anew(&design);
     for factor in [0.2, 1.1, 6.0] {

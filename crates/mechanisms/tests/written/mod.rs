@@ -1,11 +1,11 @@
 //! Laws that are written as text against the program's own mechanisms, and against what they must do exactly.
 
 use super::common;
-use super::{gyro, rms};
+use super::{gyro, rms, shared};
 use coil::{Contact, Design, Drive, Dynamics, Heater, Mechanics, Profile, STANDARD, Side};
 use diagnosis::{Active, ForwardModel, Parameter, Prior};
 use laws::{Expression, State, System};
-use mechanisms::{Body, CATALOGUE, Gyro, Input, Library, Mechanism, Prepared, RATE, SPOOL, Stage, Target, Written};
+use mechanisms::{Body, CATALOGUE, Gyro, Input, Mechanism, Prepared, RATE, SPOOL, Stage, Target, Written};
 
 /// A mechanism with parameters a and b that sees the spool's thermometer, the coil's temperature, the rate of the former, the chamber and the time.
 fn written(states: &[(&str, &str)], target: Target, law: &str) -> Written {
@@ -142,7 +142,7 @@ fn a_power_that_is_switched_within_a_row_acts_from_its_instant() {
     let design = heated(POWER);
     let mut unheated = design.clone();
     unheated.heat.heaters.clear();
-    let library = Library::build(&unheated, CATALOGUE, &|_| ()).expect("library");
+    let library = shared::library(&unheated, CATALOGUE, &|_| ());
     let power = written(&[], Target::FlangePower, "a * step(time - b)");
     let (time, chamber) = super::course();
     let prepared = Prepared::new(&library, &time, &chamber, 60.0).expect("prepared");
