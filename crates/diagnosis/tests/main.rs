@@ -1,5 +1,6 @@
 //! All tests of the crate in one program: linked once.
 
+mod carried;
 mod common;
 mod compose;
 mod elsewhere;
