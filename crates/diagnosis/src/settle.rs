@@ -310,6 +310,13 @@ fn leader(
     };
     let recalibrated = fitter.fit(&Hypothesis::RECALIBRATED, &noise, known)?;
     let mut fits = among.iter().map(|hypothesis| fitter.screened(hypothesis, &recalibrated)).collect::<Result<Vec<Fit>, _>>()?;
+    // constants that have made up for a mechanism hide it: about the drawing each begins there, too
+    if known.is_none() {
+        let drawn = recalibrated.as_drawn(model);
+        for hypothesis in among {
+            fits.push(fitter.screened(hypothesis, &drawn)?);
+        }
+    }
     // beside derivatives of the constants alone a fit may have missed its minimum, and what is known may have settled in another one: the likeliest begins anew
     let likeliest = fits.iter().filter(|fit| !fit.log_evidence.is_nan()).max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence));
     if let Some(hypothesis) = likeliest.filter(|_| begins_anew).map(|fit| fit.hypothesis.clone()) {

@@ -169,8 +169,11 @@ impl Error {
 
 /// Units that have not passed, in words.
 fn not_passed(failing: usize, not_known: usize, units: usize) -> String {
-    let fails = (failing > 0).then(|| format!("{failing} of {units} units do not keep the limits"));
-    let unknown =
-        || format!("{not_known} of {units} units are not known to keep the limits: they have not passed; see the column reason");
+    let does = if failing == 1 { "does" } else { "do" };
+    let fails = (failing > 0).then(|| format!("{failing} of {units} units {does} not keep the limits"));
+    let (are, they_have) = if not_known == 1 { ("is", "it has") } else { ("are", "they have") };
+    let unknown = || {
+        format!("{not_known} of {units} units {are} not known to keep the limits: {they_have} not passed; see the column reason")
+    };
     fails.into_iter().chain((not_known > 0).then(unknown)).collect::<Vec<_>>().join("; ")
 }

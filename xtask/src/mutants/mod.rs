@@ -144,12 +144,14 @@ impl Mutants {
     ) -> Result<(), Failure> {
         let scratch = root().join("target/mutants/reached");
         let slowest = self.slowest.unwrap_or(f64::INFINITY);
-        let tests = Tests::measured(woven.programs.clone(), self.jobs, slowest, &scratch)?;
+        let tests = Tests::measured(woven, self.jobs, slowest, &scratch)?;
         let mut functions = BTreeMap::<(&str, &str), Vec<usize>>::new();
         for &id in chosen {
             functions.entry((&woven.mutants[id].file, &woven.mutants[id].function)).or_default().push(id);
         }
-        let queue = Mutex::new(functions.into_values());
+        let mut functions: Vec<Vec<usize>> = functions.into_values().collect();
+        functions.sort_by_key(|ids| ids.iter().any(|id| tests.makes(*id)));
+        let queue = Mutex::new(functions.into_iter());
         let (sender, results) = mpsc::channel();
         std::thread::scope(|scope| {
             for _ in 0..self.jobs.max(1) {

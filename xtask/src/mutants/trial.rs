@@ -9,10 +9,9 @@ use std::time::{Duration, Instant};
 
 use proof::Failure;
 use proof::files::{failed, read, write};
-use proof::program::hex;
-use sha2::{Digest as _, Sha256};
 
 use super::outcome::Outcome;
+use super::woven::Woven;
 
 /// Tests that take less are run together, in seconds.
 const QUICK: f64 = 1.0;
@@ -23,6 +22,8 @@ const PATIENCE: (f64, f64) = (20.0, 5.0);
 const FOLLOWED: (f64, f64) = (20.0, 10.0);
 /// Time between two looks at a test that runs.
 const LOOK: Duration = Duration::from_millis(10);
+/// Models that a process of all tests makes.
+const MODELS: f64 = 10.0;
 /// Variables that name the folder of what tests share: what other crates answer, and models, which the crate itself makes.
 const SHARED: [&str; 2] = ["FOGCOIL_KEPT", "FOGCOIL_KEPT_MODELS"];
 /// Most memory of a trial, KiB: a mutant may ask for ever more.
@@ -82,17 +83,16 @@ impl Tests {
     ///
     /// # Errors
     /// [`Failure`] if a test fails.
-    pub(super) fn measured(programs: Vec<Program>, jobs: usize, slowest: f64, scratch: &Path) -> Result<Self, Failure> {
+    pub(super) fn measured(woven: &Woven, jobs: usize, slowest: f64, scratch: &Path) -> Result<Self, Failure> {
         std::fs::create_dir_all(scratch).map_err(failed(scratch))?;
+        let programs = woven.programs.clone();
         let mut names = Vec::new();
-        let mut hash = Sha256::new_with_prefix(slowest.to_le_bytes());
         for (n, program) in programs.iter().enumerate() {
-            hash.update(std::fs::read(&program.path).map_err(failed(&program.path))?);
             let ignored = program.listed(&["--ignored"])?;
             names.extend(program.listed(&[])?.difference(&ignored).map(|name| (n, name.clone())));
         }
-        let hash = hex(hash);
-        let (kept, shared) = (scratch.join(format!("{hash}.json")), scratch.join(hash));
+        let name = format!("{}-{slowest}", woven.hash);
+        let (kept, shared) = (scratch.join(format!("{name}.json")), scratch.join(name));
         if let Some(tests) = read(&kept).ok().and_then(|text| serde_json::from_str(&text).ok()) {
             return Ok(Self::of(programs, tests, shared));
         }
@@ -158,6 +158,11 @@ impl Tests {
         Self { programs, tests, shared, made }
     }
 
+    /// Whether a mutant acts while models are made which tests share: its trials take longest.
+    pub(super) fn makes(&self, id: usize) -> bool {
+        self.made.contains(&id)
+    }
+
     /// Whether a test fails, or never ends, while a mutant acts; `killers` counts the mutants of this function that each test caught. Tests that take
     /// more than `slowest` seconds are left out: `None` if such a test alone could tell.
     pub(super) fn outcome(
@@ -174,7 +179,7 @@ impl Tests {
             rounds.push(vec![first]);
             reaching.remove(0);
         }
-        let makes = self.made.contains(&id);
+        let makes = self.makes(id);
         let takes = |n: usize| if makes { self.tests[n].anew } else { self.tests[n].takes };
         let (quick, mut slow): (Vec<usize>, Vec<usize>) = reaching.into_iter().partition(|&n| takes(n) < QUICK);
         slow.sort_by(|&a, &b| self.tests[a].takes.total_cmp(&self.tests[b].takes));
@@ -197,8 +202,10 @@ impl Tests {
 
     /// The test of those of one program that fails or does not end while a mutant acts.
     fn killer(&self, id: usize, round: &[usize]) -> Result<Option<usize>, Failure> {
-        let makes = self.made.contains(&id);
-        let usual: f64 = round.iter().map(|&n| if makes { self.tests[n].anew } else { self.tests[n].takes }).sum();
+        let makes = self.makes(id);
+        let tests = || round.iter().map(|&n| &self.tests[n]);
+        let making = tests().map(|test| test.anew - test.takes).fold(0.0, f64::max);
+        let usual = tests().map(|test| test.takes).sum::<f64>() + if makes { MODELS * making } else { 0.0 };
         let mut command = self.programs[self.tests[round[0]].program].command();
         command.env(SHARED[0], &self.shared);
         if !makes {

@@ -6,7 +6,9 @@ use std::process::Stdio;
 
 use proof::Failure;
 use proof::files::{below, failed, read, root};
+use proof::program::hex;
 use serde_json::Value;
+use sha2::{Digest as _, Sha256};
 
 use super::list::{Genre, Mutant, of_json};
 use super::runner::runner;
@@ -26,6 +28,8 @@ pub(super) struct Woven {
     /// Mutants that could not be put beside the source, and have to be tried one by one.
     pub(super) alone: BTreeSet<usize>,
     pub(super) programs: Vec<Program>,
+    /// Hash of the text that the programs are built of, which builds of their own may make other bytes of.
+    pub(super) hash: String,
 }
 
 /// The copy of the workspace, its files as they are now; those that are alike stay untouched, so that little is built anew.
@@ -121,7 +125,7 @@ pub(super) fn woven(name: &str) -> Result<Woven, Failure> {
         }
         let (programs, faults) = built(&copy, name)?;
         if faults.is_empty() {
-            return Ok(Woven { mutants, unviable, alone, programs });
+            return Ok(Woven { mutants, unviable, alone, programs, hash: hash_of(&copy)? });
         }
         eprintln!("build {}: {} faults", build + 1, faults.len());
         let before = unviable.len() + alone.len();
@@ -138,6 +142,20 @@ pub(super) fn woven(name: &str) -> Result<Woven, Failure> {
         }
     }
     Err(Failure(format!("{name} is not built in {BUILDS} times")))
+}
+
+/// Hash of the manifests and of all that is in the crates of a copy.
+fn hash_of(copy: &Path) -> Result<String, Failure> {
+    let crates = copy.join("crates");
+    let mut paths: Vec<PathBuf> = below(&crates)?.iter().map(|file| crates.join(file)).collect();
+    paths.extend(["Cargo.toml", "Cargo.lock"].map(|file| copy.join(file)));
+    paths.sort();
+    let mut hash = Sha256::new();
+    for path in paths {
+        hash.update(path.to_string_lossy().as_bytes());
+        hash.update(std::fs::read(&path).map_err(failed(&path))?);
+    }
+    Ok(hex(hash))
 }
 
 /// A fault that the compiler tells: file, byte, message.
@@ -177,6 +195,7 @@ fn built(copy: &Path, name: &str) -> Result<(Vec<Program>, Vec<Fault>), Failure>
     if faults.is_empty() && !output.status.success() {
         return Err(Failure(format!("the tests of {name} with its mutants are not built")));
     }
+    programs.sort_by(|a, b| a.path.cmp(&b.path));
     Ok((programs, faults))
 }
 

@@ -49,6 +49,12 @@ impl Fit {
         self.whitened.norm_squared() / 2.0 + self.beforehand.energy(&self.u)
     }
 
+    /// The same fit where its unknowns are as they are expected beforehand.
+    pub(crate) fn as_drawn(&self, model: &dyn ForwardModel) -> Self {
+        let (drawn, u) = (expected(model.nuisances()), DVector::zeros(self.u.len()));
+        Self { nuisances: vec![drawn; self.nuisances.len()], u, ..self.clone() }
+    }
+
     /// The likelier of two; of equals the first.
     pub(crate) fn better(first: Option<Self>, second: Self) -> Self {
         first.filter(|first| second.log_evidence <= first.log_evidence).unwrap_or(second)

@@ -77,15 +77,16 @@ impl Objective<'_> {
     }
 
     /// Points along a valley: a nuisance is set aside by one distance after another, to either side, and the others follow step by step. Instants of a switch
-    /// follow a delay, row by row, where one step from afar would lose them.
+    /// follow a delay, row by row, where one step from afar would lose them. On the side of what is expected the way goes on as far beyond that.
     fn along(&self, best: &Fit, i: usize) -> Result<Vec<Point>, Error> {
-        let distances = self.parameter(self.layout[i]).map_or(&[][..], |p| &p.around);
+        let Some(parameter) = self.parameter(self.layout[i]) else { return Ok(Vec::new()) };
+        let middle = parameter.prior.value(0.0) - parameter.prior.value(best.u[i]);
         let mut points = Vec::new();
         'sides: for sign in [-1.0, 1.0] {
             let (mut u, mut derivatives, mut gone) = (best.u.clone(), best.derivatives.clone(), 0.0);
-            for distance in distances {
+            for distance in as_far(&parameter.around, sign * middle) {
                 self.shift(&mut u, i, sign * (distance - gone));
-                gone = *distance;
+                gone = distance;
                 for _ in 0..FOLLOWED {
                     let Some(point) = self.followed(&mut derivatives, u.clone(), (i, None))? else { continue 'sides };
                     u.clone_from(&point.u);
@@ -118,4 +119,14 @@ impl Objective<'_> {
         self.shorten(&mut step, |_| true);
         self.point(at.u + step).map(Some)
     }
+}
+
+/// The distances, which increase, and further ones that are as far apart as the last two until they reach as far beyond what is `ahead`.
+fn as_far(distances: &[f64], ahead: f64) -> Vec<f64> {
+    let mut all = distances.to_vec();
+    if let [.., before, last] = *distances {
+        let further = ((ahead.max(0.0)) / (last - before)).ceil() as usize;
+        all.extend((1..=further).map(|n| last + n as f64 * (last - before)));
+    }
+    all
 }

@@ -1,7 +1,7 @@
 //! The design as it is drawn in the rows of a record, beside what one mistake in reading it, or in drawing it, would make of it.
 
 use diagnosis::{ForwardModel, Role, expected};
-use mechanisms::{Gyro, RATE as RATE_CHANNEL};
+use mechanisms::Gyro;
 
 /// Largest ratio of what a mistake leaves to what the answer leaves at which the mistake explains as much.
 const AS_WELL: f64 = 1.1;
@@ -12,8 +12,8 @@ pub(super) const TOLERATED: f64 = 2.0;
 pub(super) struct AsDrawn {
     /// Predicted channels.
     pub(super) predicted: Vec<Vec<f64>>,
-    /// Rate that the tolerances of the constants make, one standard deviation, rms \[deg/h\].
-    pub(super) tolerated: f64,
+    /// What the tolerances of the constants make of each channel, one standard deviation, rms.
+    pub(super) tolerated: [f64; 2],
 }
 
 impl AsDrawn {
@@ -21,20 +21,22 @@ impl AsDrawn {
     pub(super) fn of(gyro: &Gyro, number: usize) -> Result<Self, coil::Error> {
         let middle = expected(gyro.nuisances());
         let predicted = gyro.respond(number, &middle, &[])?;
-        let mut tolerated = 0.0_f64;
+        let mut tolerated = [0.0_f64; 2];
         for (k, nuisance) in gyro.nuisances().iter().enumerate().filter(|(_, n)| n.role == Role::Constant) {
             let mut moved = middle.clone();
             moved[k] = nuisance.parameter.prior.value(1.0);
-            let rate = gyro.respond(number, &moved, &[])?.swap_remove(RATE_CHANNEL);
-            tolerated = tolerated.hypot(spread(&rate, &predicted[RATE_CHANNEL], 1.0));
+            let channels = gyro.respond(number, &moved, &[])?;
+            for (sum, (moved, drawn)) in tolerated.iter_mut().zip(channels.iter().zip(&predicted)) {
+                *sum = sum.hypot(spread(moved, drawn, 1.0));
+            }
         }
         Ok(Self { predicted, tolerated })
     }
 
-    /// Whether a mistake that `would` leave so much of the rate explains a record as the answer does, which leaves `answered`, with its constants fitted: the
+    /// Whether a mistake that `would` leave so much of a channel explains a record as the answer does, which leaves `answered`, with its constants fitted: the
     /// mistake has them as drawn, and may leave what their tolerances make. Without an answer any explains more.
-    pub(super) fn explains_as_much(&self, would: f64, answered: Option<f64>) -> bool {
-        answered.is_none_or(|answered| would < (AS_WELL * answered).hypot(TOLERATED * self.tolerated))
+    pub(super) fn explains_as_much(&self, channel: usize, would: f64, answered: Option<f64>) -> bool {
+        answered.is_none_or(|answered| would < (AS_WELL * answered).hypot(TOLERATED * self.tolerated[channel]))
     }
 }
 

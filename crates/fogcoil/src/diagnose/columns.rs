@@ -54,8 +54,9 @@ pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record, answered: Opt
     let jumped = jumped::warning(gyro, number, record, &predicted[SPOOL_CHANNEL], answered(SPOOL_CHANNEL))?;
     let [left, would] = [1.0, -1.0].map(|sign| spread(rate, &predicted[RATE_CHANNEL], sign));
     // of a design that nearly cancels, tolerances turn the sign about
-    let has_a_sign = spread(&predicted[RATE_CHANNEL], &predicted[RATE_CHANNEL], 0.0) > TOLERATED * drawn.tolerated;
-    let as_much = as_well(would, answered(RATE_CHANNEL)) || has_a_sign && drawn.explains_as_much(would, answered(RATE_CHANNEL));
+    let has_a_sign = spread(&predicted[RATE_CHANNEL], &predicted[RATE_CHANNEL], 0.0) > TOLERATED * drawn.tolerated[RATE_CHANNEL];
+    let as_much = as_well(would, answered(RATE_CHANNEL))
+        || has_a_sign && drawn.explains_as_much(RATE_CHANNEL, would, answered(RATE_CHANNEL));
     let reversed = (REVERSED * would < left && as_much).then(|| {
         let [left, would] = [left, would].map(|r| significant(r, 2));
         let text = format!(
@@ -78,9 +79,10 @@ fn other_unit(rate: &[f64], drawn: &AsDrawn, units: &[Unit], answered: Option<f6
     let size = spread(&there, &there, 0.0);
     let would = |scale: f64| scale * spread(rate, predicted, 1.0 / scale);
     let agrees = |scale: f64| {
-        REVERSED * would(scale) < size && drawn.explains_as_much(would(scale), answered.map(|answered| scale * answered))
+        REVERSED * would(scale) < size
+            && drawn.explains_as_much(RATE_CHANNEL, would(scale), answered.map(|answered| scale * answered))
     };
-    let unit = suspected(units, agrees).filter(|_| size > TOLERATED * drawn.tolerated)?;
+    let unit = suspected(units, agrees).filter(|_| size > TOLERATED * drawn.tolerated[RATE_CHANNEL])?;
     let [size, would] = [size, would(unit.scale)].map(|r| significant(r, 2));
     let (name, how) = (&unit.name, how_far(unit.scale));
     Some(format!(
@@ -98,7 +100,7 @@ mod tests {
     #[test]
     fn exact_a_rate_in_another_unit_is_told_by_its_size() {
         let course: Vec<f64> = (0..200).map(|n| (f64::from(n) / 20.0).sin()).collect();
-        let drawn = |tolerated: f64| AsDrawn { predicted: vec![course.clone(); 2], tolerated };
+        let drawn = |tolerated: f64| AsDrawn { predicted: vec![course.clone(); 2], tolerated: [tolerated; 2] };
         let units = [("deg/h", 1.0 / 3600.0), ("rad/s", 57.296), ("mdeg/s", 1e-3)];
         let units = units.map(|(name, scale)| Unit { name: name.into(), scale, offset: 0.0 });
         let of = |factor: f64, tolerated: f64, answered: Option<f64>| {
@@ -112,7 +114,7 @@ mod tests {
         // a rate at rest, whose size says nothing
         let rest: Vec<f64> = (0..200).map(|n| if n < 60 { 0.01 * f64::from(n % 2) } else { f64::NAN }).collect();
         let flat: Vec<f64> = course.iter().enumerate().map(|(n, r)| if n < 60 { 0.0 } else { *r }).collect();
-        let resting = AsDrawn { predicted: vec![flat; 2], tolerated: 0.1 };
+        let resting = AsDrawn { predicted: vec![flat; 2], tolerated: [0.1; 2] };
         assert_eq!(other_unit(&rest, &resting, &units, Some(0.005)), None);
         assert_eq!(
             [of(1.0, 0.1, None), of(1.0 / 57.296, 0.5, None), of(1.0 / 57.296, 0.0, Some(0.0)), of(-1.0 / 57.296, 0.1, None)],

@@ -207,10 +207,9 @@ pub fn diagnose<'m>(
     let mut other_drawing = None;
     if diagnosis.verdict != Verdict::None && !is_unit {
         progress(Step::begins("drawings that differ in one word"));
-        let of_rate: Vec<f64> = answered[..read.len()].iter().map(|answered| answered[RATE_CHANNEL]).collect();
-        let of_rate = explains_fitted.then_some(of_rate.as_slice());
+        let of_fitted = explains_fitted.then_some(&answered[..read.len()]);
         let constants_suffice = diagnosis.verdict == Verdict::Recalibrate;
-        if let Some(doubt) = drawing::warning(&drawn, case, &read, of_rate, constants_suffice).map_err(coil)? {
+        if let Some(doubt) = drawing::warning(&drawn, case, &read, of_fitted, constants_suffice).map_err(coil)? {
             let rather = read.iter().zip(&doubt.rather_than_sign).filter(|(_, rather)| **rather);
             let files: Vec<&Path> = rather.map(|(record, _)| record.fingerprint.file.as_path()).collect();
             notes.retain(|note| {
