@@ -1,6 +1,6 @@
 //! Rectangles of the (r, y) half-plane and their content.
 
-use crate::{Contact, Design, Error, Mechanics, Side};
+use crate::{Contact, Dehomogenization, Design, Error, Mechanics, Side};
 
 /// Thickness of the skin of the hub whose radial conductivity stands for a contact resistance \[m\]: thin enough to leave the hub's
 /// conduction and stiffness as they are (1/4000 of a wall of 4 mm).
@@ -232,6 +232,12 @@ fn check(design: &Design) -> Result<(), Error> {
     if !(body.outer_radius.is_finite() && body.outer_radius > inner) {
         let problem = format!("{} m must be finite and greater than the inner radius {inner} m", body.outer_radius);
         return Err(Error::design("coil.outer_radius", problem));
+    }
+    let Dehomogenization { m_rx, m_ry, m_rz, m_rt } = design.dehomogenization;
+    for (name, value) in [("m_rx", m_rx), ("m_ry", m_ry), ("m_rz", m_rz), ("m_rt", m_rt)] {
+        if !value.is_finite() {
+            return Err(Error::design(&format!("dehomogenization.{name}"), format!("{value} must be finite")));
+        }
     }
     check_heat(design)?;
     check_mechanics(design)?;

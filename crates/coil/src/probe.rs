@@ -71,7 +71,8 @@ impl<'g> Prober<'g> {
             hits.push(Hit { nodes: nodes.clone(), r: column.clone(), y: row.clone() });
         }
         if !inside {
-            return Err(Error::design(field, format!("the point r = {r} m, y = {y} m lies outside the mesh")));
+            let remedy = if field == "winding" { "; enlarge the coil, or wind fewer layers or turns" } else { "" };
+            return Err(Error::design(field, format!("the point r = {r} m, y = {y} m lies outside the mesh{remedy}")));
         }
         if hits.is_empty() {
             let problem = format!("the turn at r = {r} m, y = {y} m lies outside the coil; enlarge the coil");

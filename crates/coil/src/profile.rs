@@ -21,15 +21,25 @@ impl Profile {
         if self.time.is_empty() {
             return bad(0, "there is no instant; give at least one".into());
         }
-        if self.drives.len() != drives || self.drives.iter().any(|d| d.len() != self.time.len()) {
-            return bad(0, format!("{drives} courses of {} instants are needed", self.time.len()));
+        if self.drives.len() != drives {
+            return bad(
+                0,
+                format!("there are {} courses of drives where {drives} are needed; give one for each", self.drives.len()),
+            );
+        }
+        if let Some(course) = self.drives.iter().find(|course| course.len() != self.time.len()) {
+            let (values, instants) = (course.len(), self.time.len());
+            return bad(
+                0,
+                format!("the course of a drive has {values} values where there are {instants} instants; give one for each"),
+            );
         }
         for (row, t) in self.time.iter().enumerate() {
             if !t.is_finite() || (row > 0 && *t <= self.time[row - 1]) {
                 return bad(row, format!("time {t} s must be finite and later than the one before"));
             }
             if let Some(value) = self.drives.iter().map(|d| d[row]).find(|v| !v.is_finite()) {
-                return bad(row, format!("{value} must be finite"));
+                return bad(row, format!("a drive is {value} there; it must be finite"));
             }
         }
         Ok(())
@@ -133,4 +143,23 @@ fn slopes(t: &[f64], course: &[f64]) -> Vec<f64> {
         slope.max(-most).min(most)
     };
     [line(steps.first())].into_iter().chain(steps.windows(2).map(parabola)).chain([line(steps.last())]).take(t.len()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_profile_that_cannot_be_run_is_told_by_what_is_wrong() {
+        let refused = |time: &[f64], drives: &[&[f64]]| {
+            let profile = Profile { time: time.to_vec(), drives: drives.iter().map(|course| course.to_vec()).collect() };
+            profile.check(1).expect_err("a bad profile").to_string()
+        };
+        let said = refused(&[0.0, 1.0], &[&[20.0]]);
+        assert!(said.contains("the course of a drive has 1 values where there are 2 instants; give one for each"), "{said}");
+        let said = refused(&[0.0], &[&[20.0], &[20.0]]);
+        assert!(said.contains("there are 2 courses of drives where 1 are needed"), "{said}");
+        let said = refused(&[0.0, 1.0], &[&[20.0, f64::NAN]]);
+        assert!(said.contains("instant 1") && said.contains("a drive is NaN there; it must be finite"), "{said}");
+    }
 }

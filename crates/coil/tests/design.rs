@@ -33,7 +33,7 @@ fn exact_unbonded_parts_stand_back_and_the_coil_stays() {
 #[test]
 fn bounds_each_bad_design_names_its_field() {
     type Change = fn(&mut Design);
-    let cases: [(&str, Change); 10] = [
+    let cases: [(&str, Change); 12] = [
         ("coil.outer_radius", |d| d.body.outer_radius = 43.5e-3),
         ("coil.height", |d| d.body.height = f64::NAN),
         ("surroundings.margin", |d| d.surroundings.margin = 0.0),
@@ -47,11 +47,15 @@ fn bounds_each_bad_design_names_its_field() {
         ("sensor", |d| d.sensor.radius = 0.1),
         ("winding", |d| d.body.height = 17e-3),
         ("nu_r", |d| d.body.elastic.nu_r = 0.9999),
+        ("dehomogenization.m_rx", |d| d.dehomogenization.m_rx = f64::NAN),
+        ("dehomogenization.m_rt", |d| d.dehomogenization.m_rt = f64::INFINITY),
     ];
     for (field, change) in cases {
         let error = Model::new(&changed(change), &COARSE).err().unwrap_or_else(|| panic!("{field} must be refused"));
         assert!(error.to_string().contains(field), "{field}: {error}");
     }
+    let error = Model::new(&changed(|d| d.body.outer_radius = 46e-3), &COARSE).expect_err("turns without a coil");
+    assert!(error.to_string().contains("enlarge the coil"), "{error}");
     let coarse = MeshFineness { order: 0, ..COARSE };
     assert!(matches!(Model::new(&reference(), &coarse), Err(Error::Resolution(_))));
 }

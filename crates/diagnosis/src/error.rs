@@ -14,7 +14,7 @@ pub enum Error {
     #[error(transparent)]
     Noise(#[from] recording::Error),
     /// A fit gave no finite number.
-    #[error("a fit gave a number that is not finite; a response of the forward model may not be")]
+    #[error("a fit gave a number that is not finite; the forward model may give one, with its numbers away from those expected")]
     NotFinite,
     /// A mechanism has no start.
     #[error("a mechanism has no start for its fit")]

@@ -19,6 +19,8 @@ struct Reading {
     stands_for: Option<usize>,
     precision: Option<DMatrix<f64>>,
     latent: Vec<Latent>,
+    /// Row without a response.
+    nan: Option<usize>,
 }
 
 impl Reading {
@@ -42,6 +44,7 @@ impl Reading {
             stands_for: None,
             precision: None,
             latent: Vec::new(),
+            nan: None,
         }
     }
 }
@@ -75,7 +78,9 @@ impl ForwardModel for Reading {
         let slope = active.first().and_then(|a| a.values.first()).copied().unwrap_or(0.0);
         let gain = nuisances.first().copied().unwrap_or(1.0);
         let of = |rows: &usize| wave(*rows, 0.0).iter().zip(wave(*rows, 1.6)).map(|(x, y)| gain * x + slope * y).collect();
-        Ok(self.rows[usize::from(!active.is_empty())].iter().map(of).collect())
+        let mut response: Vec<Vec<f64>> = self.rows[usize::from(!active.is_empty())].iter().map(of).collect();
+        self.nan.iter().for_each(|row| response[0][*row] = f64::NAN);
+        Ok(response)
     }
 
     fn state(&self, _: usize) -> &State {
@@ -130,6 +135,32 @@ fn a_response_of_another_shape_is_refused() {
     for (rows, found) in [(Vec::new(), 0), (vec![ROWS; 2], 2)] {
         let expected = format!("record 0: the response has {found} series, the model has 1 channel; give one series for each");
         assert_eq!(refused(|m| m.rows[0] = rows.clone()), expected);
+    }
+}
+
+/// What is no number is told where it stands.
+#[test]
+fn what_is_not_finite_is_told_by_its_place() {
+    // before anything is fitted the response is asked for with the middles of the priors
+    let unknown = |m: &mut Reading| m.nan = Some(3);
+    assert_eq!(
+        refused(unknown),
+        "record 0: the response of channel `flow` is not finite in row 3, with every nuisance as expected and no mechanism; give a number for every row"
+    );
+    for step in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
+        let expected = |name: &str| format!("{name}: its step for differences is {step}; it has to be finite and above 0");
+        assert_eq!(refused(|m| m.nuisances[0].parameter.step = step), expected("gain"));
+        assert_eq!(refused(|m| m.mechanisms[0].parameters[0].step = step), expected("slip: slope"));
+    }
+    assert_eq!(
+        refused(|m| m.mechanisms[0].starts.clear()),
+        "slip: its fit has no start; give one, with a value for each parameter"
+    );
+    for (name, of) in [("level", 0), ("rate", 1)] {
+        let mut model = Reading::new();
+        [&mut model.state.level, &mut model.state.rate][of][7] = f64::NAN;
+        let said = diagnose(&model, &[0], &[observed()], &Settings::default(), &|_| ()).expect_err("no number").to_string();
+        assert_eq!(said, format!("record 0: the state's {name} is not finite in row 7; give a value in every row"));
     }
 }
 

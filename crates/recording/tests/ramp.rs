@@ -547,4 +547,12 @@ fn what_a_record_does_not_hold_is_not_told() {
         reading: 0.0,
     };
     assert!(matches!(short.respond(), Err(Absent::Noise(recording::Error::TooFew { .. }))), "{:?}", short.respond());
+    for interval in [0.0, -60.0, f64::NAN, f64::INFINITY] {
+        let none = Record {
+            interval,
+            ..Record { time: short.time.clone(), values: short.values.clone(), temperature: short.temperature.clone(), ..short }
+        }
+        .respond();
+        assert!(matches!(&none, Err(Absent::Noise(error)) if error.to_string().contains("finite and above 0 s")), "{none:?}");
+    }
 }

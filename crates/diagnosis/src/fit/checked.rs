@@ -1,6 +1,6 @@
 //! Models and observations that cannot be compared are refused before anything is computed: shapes, priors, starts, weights.
 
-use crate::{Active, Channel, Error, ForwardModel, Observation, Omission};
+use crate::{Active, Channel, Error, ForwardModel, Observation, Omission, Parameter};
 
 /// No observed value is of this size.
 const HUGE: f64 = 1e100;
@@ -35,13 +35,21 @@ fn offset_problem(model: &dyn ForwardModel) -> Option<String> {
 
 fn nuisance_problem(model: &dyn ForwardModel) -> Option<String> {
     let nuisances = model.nuisances();
-    let of = |parameter: &crate::Parameter| Some(format!("{}: {}", parameter.name, parameter.prior.problem()?));
-    nuisances.iter().find_map(|nuisance| of(&nuisance.parameter)).or_else(|| {
+    nuisances.iter().find_map(|nuisance| parameter_problem(&nuisance.parameter)).or_else(|| {
         let precision = model.precision().filter(|p| p.shape() != (nuisances.len(), nuisances.len()))?;
         let (rows, columns) = precision.shape();
         let needed = plural(nuisances.len(), "nuisance");
         Some(format!("the precision has {rows} rows and {columns} columns, the model has {needed}; give one of each for each"))
     })
+}
+
+fn parameter_problem(parameter: &Parameter) -> Option<String> {
+    let Parameter { name, prior, step, .. } = parameter;
+    let of_step = || {
+        let is_step = step.is_finite() && *step > 0.0;
+        (!is_step).then(|| format!("its step for differences is {step}; it has to be finite and above 0"))
+    };
+    Some(format!("{name}: {}", prior.problem().or_else(of_step)?))
 }
 
 fn library_problem(model: &dyn ForwardModel) -> Option<String> {
@@ -75,8 +83,10 @@ fn mechanism_problem(mechanism: &Omission) -> Option<String> {
         let (found, needed) = (plural(start.len(), "value"), plural(count, "parameter"));
         return Some(format!("a start has {found}, the mechanism has {needed}; give one value for each"));
     }
-    let of = |parameter: &crate::Parameter| Some(format!("{}: {}", parameter.name, parameter.prior.problem()?));
-    mechanism.parameters.iter().find_map(of).or_else(|| {
+    if mechanism.starts.is_empty() {
+        return Some("its fit has no start; give one, with a value for each parameter".into());
+    }
+    mechanism.parameters.iter().find_map(parameter_problem).or_else(|| {
         let each = mechanism.starts.iter().flat_map(|start| mechanism.parameters.iter().zip(start));
         let (parameter, value) = each.into_iter().find(|(parameter, value)| !parameter.prior.allows(**value))?;
         Some(format!("{}: a start of {value} is outside its prior; give one inside", parameter.name))
@@ -136,7 +146,16 @@ fn state(model: &dyn ForwardModel, record: usize, rows: usize) -> Result<(), Err
     let state = model.state(record);
     let (level, rate) = (state.level.len(), state.rate.len());
     if level == rows && rate == rows {
-        return Ok(());
+        let series = [("level", &state.level), ("rate", &state.rate)];
+        let unknown = series.into_iter().find_map(|(name, of)| Some((name, of.iter().position(|value| !value.is_finite())?)));
+        return match unknown {
+            Some((name, row)) => {
+                let problem =
+                    format!("record {record}: the state's {name} is not finite in row {row}; give a value in every row");
+                Err(Error::Definition(problem))
+            }
+            None => Ok(()),
+        };
     }
     let instants = plural(rows, "instant");
     let problem = format!("the state has {} and {} at {instants}", plural(level, "level"), plural(rate, "rate"));
@@ -157,6 +176,18 @@ pub(crate) fn responded(
     let response = model.respond(record, nuisances, active).map_err(Error::Model)?;
     shape(model, record, rows, "the response", &response)?;
     Ok(response)
+}
+
+/// # Errors
+/// [`Error::Definition`] if the response with all numbers as they are expected is not finite: there is nothing to compare with.
+pub(crate) fn finite(model: &dyn ForwardModel, record: usize, response: &Response) -> Result<(), Error> {
+    let row = |series: &Vec<f64>| series.iter().position(|value| !value.is_finite());
+    match model.channels().iter().zip(response).find_map(|(channel, series)| Some((&channel.name, row(series)?))) {
+        Some((name, row)) => Err(Error::Definition(format!(
+            "record {record}: the response of channel `{name}` is not finite in row {row}, with every nuisance as expected and no mechanism;              give a number for every row"
+        ))),
+        None => Ok(()),
+    }
 }
 
 /// # Errors

@@ -120,6 +120,7 @@ impl<'a> Fitter<'a> {
             let rows = observed.time.len();
             checked::observed(model, *record, observed)?;
             let predicted = checked::responded(model, *record, rows, &middle, &[])?;
+            checked::finite(model, *record, &predicted)?;
             let channels = model.channels().iter().zip(&observed.channels).zip(&predicted);
             Ok(channels.map(|((channel, recorded), predicted)| Offset::of(channel, recorded, predicted)).collect())
         };

@@ -130,3 +130,19 @@ fn as_far(distances: &[f64], ahead: f64) -> Vec<f64> {
     }
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_go_on_to_what_is_ahead_and_as_far_beyond() {
+        let around = [0.5, 1.0, 1.5];
+        assert_eq!(as_far(&around, 1.2), [0.5, 1.0, 1.5, 2.0, 2.5, 3.0]);
+        assert_eq!(as_far(&around, 1.0), [0.5, 1.0, 1.5, 2.0, 2.5]);
+        // behind, or with no step to go on by
+        assert_eq!(as_far(&around, -7.0), around);
+        assert_eq!(as_far(&[2.0], 9.0), [2.0]);
+        assert!(as_far(&[], 9.0).is_empty());
+    }
+}

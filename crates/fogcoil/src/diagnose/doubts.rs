@@ -29,7 +29,9 @@ impl Outcome<'_> {
     }
 
     fn of_open_sign(&self) -> Option<String> {
-        let is_open = |estimate: &&Estimate| estimate.ci90[0] < 0.0 && estimate.ci90[1] > 0.0;
+        // the zero of a temperature is the scale's
+        let has_a_sign = |estimate: &Estimate| parameter_unit(&estimate.name) != "degC";
+        let is_open = |estimate: &&Estimate| estimate.ci90[0] < 0.0 && estimate.ci90[1] > 0.0 && has_a_sign(estimate);
         let open: Vec<&str> =
             self.diagnosis.parameters.iter().flatten().filter(is_open).map(|estimate| estimate.name.as_str()).collect();
         (!open.is_empty()).then(|| {

@@ -38,6 +38,7 @@ impl Outcome<'_> {
         let [none, recalibrate, by_library, unknown] = d.verdicts();
         json!({
             "verdict": name(d.verdict),
+            "is_open": self.is_open(),
             "verdicts": {"none": none, "recalibrate": recalibrate, "explained": by_library, "unknown": unknown},
             "mechanisms": mechanisms,
             "set": set,

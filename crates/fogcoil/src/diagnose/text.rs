@@ -334,8 +334,11 @@ impl Outcome<'_> {
         let proven = !self.holdouts.is_empty() && self.accepted();
         let another = "make a record of the same unit under another profile and give it with --holdout";
         if let Some((id, inspection)) = self.suspect() {
+            // a second record that has not decided asks for no third one
+            let several = self.fits.len() + self.holdouts.len() > 1;
+            let or = if several { String::new() } else { format!("; or {another}") };
             return format!(
-                "{id} is likelier than that the constants suffice, but not surely enough to be named. To decide: {inspection}; or {another}."
+                "{id} is likelier than that the constants suffice, but not surely enough to be named. To decide: {inspection}{or}."
             );
         }
         if self.in_place_of_all().is_some() {
@@ -516,7 +519,7 @@ impl Outcome<'_> {
             "Something is unexplained, and nothing that was weighed is likelier than the design without it: far more than noise is left of the fitted records, and of one that was held out.".into()
         } else if self.is_left_over() {
             format!("{sentence} for the fitted records, but a record that was held out is left with far more than noise.")
-        } else if probability < 0.5 {
+        } else if self.is_open() {
             format!(
                 "It is open whether {statement} (probability {probability:.2}{parts}): no other explanation is strong enough to be named."
             )
@@ -525,6 +528,12 @@ impl Outcome<'_> {
         } else {
             format!("{sentence} (probability {probability:.2}{parts}): {surely}.")
         }
+    }
+
+    /// Whether nothing is likelier than not: the design is the answer for want of another.
+    pub(super) fn is_open(&self) -> bool {
+        let [none, recalibrate, ..] = self.diagnosis.verdicts();
+        matches!(self.diagnosis.verdict, Verdict::None | Verdict::Recalibrate) && none + recalibrate < 0.5
     }
 
     /// Mechanisms that the records do not exclude beside the likeliest, and the test that would decide.

@@ -84,14 +84,20 @@ const LEAST_NOISE: f64 = 1e-6;
 
 /// Response of a channel to a temperature.
 ///
+/// Ramps with rests between them tell best: where a ramp turns at once into the next, a channel that follows at once differs from the smoothed temperature at each corner,
+/// which looks like a response that has not settled.
+///
 /// Three thousand rows take some seconds; average longer records first ([`crate::condition`]).
 ///
 /// # Errors
-/// [`Absent`] where the temperature stands still, or nothing can be told.
+/// [`Absent`] where the temperature stands still, the interval is no time, or nothing can be told.
 ///
 /// # Panics
 /// If the series are not of one length.
 pub fn respond(input: &Input) -> Result<Response, Absent> {
+    if !(input.interval.is_finite() && input.interval > 0.0) {
+        return Err(Error::Parameter { name: "interval", value: input.interval, range: "finite and above 0 s" }.into());
+    }
     if input.time.len() < FEWEST {
         return Err(Error::TooFew { found: input.time.len(), needed: FEWEST }.into());
     }
