@@ -7,7 +7,9 @@ mod common;
 mod figures;
 #[path = "../../recording/tests/common/figures.rs"]
 mod figures_kit;
+mod flexible;
 mod heat_paths;
+mod offers;
 mod on_request;
 mod read_out_curvature;
 mod shared;

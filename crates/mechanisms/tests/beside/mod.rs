@@ -75,8 +75,8 @@ fn constants_carry_the_temperatures_at_which_a_bond_opens_and_closes() {
     let drawn = coil(&design);
     let mut open = drawn[0] < OPENS;
     let mut passed = [Vec::new(), Vec::new()];
-    for n in 1..drawn.len() {
-        if if open { drawn[n] > CLOSES } else { drawn[n] < OPENS } {
+    for (n, coil) in drawn.iter().enumerate() {
+        if if open { *coil > CLOSES } else { *coil < OPENS } {
             passed[usize::from(open)].push(n);
             open = !open;
         }
@@ -95,6 +95,23 @@ fn constants_carry_the_temperatures_at_which_a_bond_opens_and_closes() {
         }
         assert!(told.len() == 2 || name == "E_z" && told.is_empty(), "{name}");
     }
-    let lag = gyro.nuisances().iter().position(|n| n.parameter.name == "lag of the spool's thermometer").expect("a sensor");
-    assert!(gyro.carries(lag, &bond).is_empty());
+    let of = |name: &str| gyro.nuisances().iter().position(|n| n.parameter.name == name).expect("a sensor");
+    assert!(gyro.carries(of("lag of the spool's thermometer"), &bond).is_empty());
+    // a chamber that was read late was ahead, one that was read with a gain moved by less, from rest
+    let mean = |which: usize, warms: &dyn Fn(usize) -> f64| {
+        passed[which].iter().map(|n| warms(*n)).sum::<f64>() / passed[which].len() as f64
+    };
+    let ahead = |n: usize| (drawn[n + 1] - drawn[n - 1]) / 120.0;
+    let less = |n: usize| drawn[0] - drawn[n];
+    for (name, warms) in
+        [("delay of the chamber's readings [s]", &ahead as &dyn Fn(usize) -> f64), ("gain of the chamber's thermometer", &less)]
+    {
+        let told = gyro.carries(of(name), &bond);
+        let [opens, closes] = [0, 1].map(|which| mean(which, warms));
+        assert!(
+            (told[0] - opens).abs() < 0.02 * opens.abs()
+                && (told[1] - (closes - opens)).abs() < 0.02 * opens.abs().max(closes.abs()),
+            "{name}: {told:?} for {opens}, {closes}"
+        );
+    }
 }

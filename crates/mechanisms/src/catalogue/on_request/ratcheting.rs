@@ -74,5 +74,6 @@ mod tests {
         // a course turned over about its first row slips alike
         let mirrored: Vec<f64> = course.iter().map(|t| 40.0 - t).collect();
         assert_eq!(slips(&mirrored, 6.0), slips(&course, 6.0));
+        assert_eq!(slips(&[20.0; 3], 0.0), [0.0; 3]);
     }
 }
