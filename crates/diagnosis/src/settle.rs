@@ -329,6 +329,10 @@ fn leader(
     }
     fits.retain(|fit| !fit.log_evidence.is_nan());
     fits.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+    // a switch at a wrong instant leaves so much that constants, and then the noise, make up for it: it is looked for before they do
+    if let Some(first) = fits.first().cloned() {
+        fits[0] = fitter.looked_around(first)?;
+    }
     let gain_of = |fit: &Fit| fit.log_evidence - recalibrated.log_evidence;
     let best = fits.first().filter(|fit| gain_of(fit) > 0.0).unwrap_or(&recalibrated);
     let gain = gain_of(best);

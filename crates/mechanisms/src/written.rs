@@ -330,6 +330,31 @@ impl Mechanism for Written {
 mod tests {
     use super::*;
 
+    /// x = 3 t at uneven instants: its mean is that at the middle, after a gap that of the last reading's span.
+    #[test]
+    fn exact_the_mean_of_a_line_is_its_middle() {
+        let time = [10.0, 25.0, 30.0, 70.0];
+        let line = time.map(|t| 3.0 * t);
+        let of = |averaging: f64| mean(&time, &line, averaging);
+        assert!((of(0.0) - 120.0).abs() < 1e-12 && (of(60.0) - 120.0).abs() < 1e-12);
+        // 40 s are the longest reading that this is no gap for
+        assert!((of(40.0) - 120.0).abs() < 1e-12 && (of(39.9) - 3.0 * (70.0 - 39.9 / 2.0)).abs() < 1e-9, "{}", of(39.9));
+        assert!((of(20.0) - 180.0).abs() < 1e-9);
+        assert!(mean(&[5.0], &[1.0], 0.0).is_nan());
+    }
+
+    #[test]
+    fn exact_a_row_is_between_the_means_about_it() {
+        assert_eq!(momentary(&[2.0, 4.0, 10.0, 1.0]), [3.0, 7.0, 5.5, 1.0]);
+        assert!(momentary(&[]).is_empty());
+    }
+
+    #[test]
+    fn a_factor_stays_a_coil_s() {
+        assert_eq!([least(-3.0), least(0.04), least(0.05), least(2.0)], [0.05, 0.05, 0.05, 2.0]);
+        assert!(least(f64::NAN).is_nan());
+    }
+
     #[test]
     fn exact_after_a_gap_a_reading_is_the_mean_of_its_own_span() {
         let mean_of = |dt: f64, averaging: f64| mean(&[20.0, 20.0 + dt], &[1.0, 5.0], averaging);

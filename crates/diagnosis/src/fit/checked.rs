@@ -184,7 +184,7 @@ pub(crate) fn finite(model: &dyn ForwardModel, record: usize, response: &Respons
     let row = |series: &Vec<f64>| series.iter().position(|value| !value.is_finite());
     match model.channels().iter().zip(response).find_map(|(channel, series)| Some((&channel.name, row(series)?))) {
         Some((name, row)) => Err(Error::Definition(format!(
-            "record {record}: the response of channel `{name}` is not finite in row {row}, with every nuisance as expected and no mechanism;              give a number for every row"
+            "record {record}: the response of channel `{name}` is not finite in row {row}, with every nuisance as expected and no mechanism; give a number for every row"
         ))),
         None => Ok(()),
     }

@@ -117,6 +117,15 @@ impl Fitter<'_> {
         Ok(best)
     }
 
+    /// The same fit, or a better minimum that second looks around it find under the same noise.
+    pub(crate) fn looked_around(&self, mut best: Fit) -> Result<Fit, Error> {
+        for _ in 0..SEARCHES {
+            let Some(found) = self.found_beside(&best)? else { break };
+            best = found;
+        }
+        Ok(best)
+    }
+
     /// Goes on from a fit: its noise and it in turn.
     fn in_turn(&self, mut best: Fit, rounds: usize) -> Result<Fit, Error> {
         for _ in 0..rounds {

@@ -12,6 +12,9 @@ const SUFFICES: f64 = 0.65;
 /// inequality); for the choice among many their prior probabilities pay.
 const FINDING: f64 = 3.0;
 
+/// Gain of ln evidence from which another minimum of the likeliest hypothesis takes its place.
+const LIKELIER: f64 = 0.5;
+
 impl Diagnosis {
     /// Concludes from the weighed `candidates`; `nominal` is the fit of the nominal model alone.
     pub(crate) fn conclude(
@@ -37,6 +40,15 @@ impl Diagnosis {
         };
         let best = &candidates[0].fit;
         let elsewhere = fitter.elsewhere(best)?;
+        // the likeliest of several minima is the one that speaks
+        let likelier = elsewhere.iter().max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence));
+        if let Some(other) = likelier.filter(|other| other.log_evidence - best.log_evidence > LIKELIER) {
+            let other = Fit::better(Some(other.clone()), fitter.fit_with_noise(&other.hypothesis, other, 2)?);
+            let first = &mut candidates[0];
+            first.log_weight += other.log_evidence - first.fit.log_evidence;
+            first.fit = other;
+            return Self::conclude(fitter, settings, candidates, nominal);
+        }
         let parameters =
             (0..best.active.len()).map(|place| crate::marginal::estimates(model, &candidates, &elsewhere, place)).collect();
         let mismatch = fitter.fit(&Hypothesis::NOMINAL, &best.noise, Some(&nominal))?;

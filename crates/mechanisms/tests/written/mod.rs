@@ -229,3 +229,29 @@ fn a_state_of_its_own_follows_the_record() {
     let [lagged, at_once] = [adds(&slow, [20.0, 0.5]), adds(&fast, [20.0, 0.5])];
     assert!(rms(&super::minus(&lagged[RATE], &at_once[RATE])) < 0.05 * rms(&at_once[RATE]));
 }
+
+#[test]
+fn exact_a_law_of_thermometer_and_tail_is_what_it_says() {
+    let [thermometer, rate] = adds(&written(&[], Target::Thermometer, "a * time + b"), [1e-4, 0.3]);
+    let (time, _) = super::course();
+    let exact: Vec<f64> = time.iter().map(|t| 1e-4 * t + 0.3).collect();
+    assert!(rms(&super::minus(&thermometer, &exact)) < 1e-12 && rate.iter().all(|x| *x == 0.0));
+    let [thermometer, rate] = adds(&written(&[], Target::Tail, "a"), [0.05, 0.0]);
+    let [_, tail] = of_catalogue("tail-asymmetry", &[0.05], None);
+    // the longer fibre, by a metre, counts for a thousandth
+    let off = rms(&super::minus(&rate[1..], &tail[1..]));
+    assert!(off < 2e-3 * rms(&tail) && thermometer.iter().all(|x| *x == 0.0), "{off:e} of {:e}", rms(&tail));
+}
+
+#[test]
+fn a_law_says_which_columns_it_sees() {
+    let plain = written(&[], Target::Rate, "a");
+    assert!(plain.columns().is_empty());
+    let mut inputs = plain.inputs.clone();
+    inputs.extend(["humidity", "field"].map(|name| Input::Column(name.into())));
+    let seeing = Written { inputs, ..plain };
+    assert_eq!(seeing.columns(), ["humidity", "field"]);
+    // a coil file holds no laws
+    let active = Active { mechanism: 0, values: vec![0.0; 2], choice: None };
+    assert_eq!(seeing.extended(&common::reference(), &active), Some(common::reference()));
+}
