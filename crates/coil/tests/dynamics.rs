@@ -200,7 +200,7 @@ fn bounds_profiles_that_cannot_be_run_name_the_instant() {
     assert!(rows(&[], &[]).expect_err("empty").contains("at least one"));
     assert!(rows(&[0.0, 30.0, 30.0], &[1.0, 2.0, 3.0]).expect_err("twice").contains("instant 2"));
     assert!(rows(&[0.0, 30.0], &[1.0, f64::NAN]).expect_err("NaN").contains("instant 1"));
-    assert!(rows(&[0.0, 30.0], &[1.0]).expect_err("short").contains("courses"));
+    assert!(rows(&[0.0, 30.0], &[1.0]).expect_err("short").contains("1 values where there are 2 instants"));
     assert_eq!(rows(&[0.0, 1e-6, 1e9], &[-40.0, 500.0, 0.0]), Ok(3), "a jump is a profile like any other");
 }
 

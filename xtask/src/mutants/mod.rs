@@ -144,7 +144,7 @@ impl Mutants {
     ) -> Result<(), Failure> {
         let scratch = root().join("target/mutants/reached");
         let slowest = self.slowest.unwrap_or(f64::INFINITY);
-        let tests = Tests::measured(woven, self.jobs, slowest, &scratch)?;
+        let tests = Tests::measured(woven.programs.clone(), &woven.hash, self.jobs, slowest, &scratch)?;
         let mut functions = BTreeMap::<(&str, &str), Vec<usize>>::new();
         for &id in chosen {
             functions.entry((&woven.mutants[id].file, &woven.mutants[id].function)).or_default().push(id);

@@ -11,7 +11,6 @@ use proof::Failure;
 use proof::files::{failed, read, write};
 
 use super::outcome::Outcome;
-use super::woven::Woven;
 
 /// Tests that take less are run together, in seconds.
 const QUICK: f64 = 1.0;
@@ -83,15 +82,20 @@ impl Tests {
     ///
     /// # Errors
     /// [`Failure`] if a test fails.
-    pub(super) fn measured(woven: &Woven, jobs: usize, slowest: f64, scratch: &Path) -> Result<Self, Failure> {
+    pub(super) fn measured(
+        programs: Vec<Program>,
+        hash: &str,
+        jobs: usize,
+        slowest: f64,
+        scratch: &Path,
+    ) -> Result<Self, Failure> {
         std::fs::create_dir_all(scratch).map_err(failed(scratch))?;
-        let programs = woven.programs.clone();
         let mut names = Vec::new();
         for (n, program) in programs.iter().enumerate() {
             let ignored = program.listed(&["--ignored"])?;
             names.extend(program.listed(&[])?.difference(&ignored).map(|name| (n, name.clone())));
         }
-        let name = format!("{}-{slowest}", woven.hash);
+        let name = format!("{hash}-{slowest}");
         let (kept, shared) = (scratch.join(format!("{name}.json")), scratch.join(name));
         if let Some(tests) = read(&kept).ok().and_then(|text| serde_json::from_str(&text).ok()) {
             return Ok(Self::of(programs, tests, shared));
