@@ -31,8 +31,9 @@ impl Doubt {
 
     /// The verdict of a unit, with a question mark where it is not sure; where most are not, only far below the others, or below another verdict.
     pub(super) fn shown(&self, row: &Row) -> Option<String> {
-        let mark =
-            if row.rival.is_some() || row.is_pressed() || probability(row).is_some_and(|p| p < self.below) { "?" } else { "" };
+        // the others' small faults, which tolerances hide, say nothing of what nothing explains
+        let below = if row.verdict.as_deref() == Some("unknown") { SURE } else { self.below };
+        let mark = if row.rival.is_some() || row.is_pressed() || probability(row).is_some_and(|p| p < below) { "?" } else { "" };
         row.verdict.as_ref().map(|verdict| format!("{verdict}{mark}"))
     }
 
@@ -77,6 +78,15 @@ mod tests {
         let doubt = Doubt::of(batch);
         let doubtful = batch.units().into_iter().filter(|row| doubt.shown(row).is_some_and(|shown| shown.ends_with('?')));
         doubtful.map(|row| row.unit.as_str()).collect()
+    }
+
+    /// Where most are doubtful, one that nothing explains is marked all the same.
+    #[test]
+    fn an_unknown_that_is_not_sure_is_marked_beside_others_that_are_not() {
+        let mut batch = batch(&[0.52, 0.6, 0.58, 0.55, 0.56, 0.57]);
+        assert!(marked(&batch).is_empty());
+        batch.rows[5].0.verdict = Some("unknown".into());
+        assert_eq!(marked(&batch), ["U5"]);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use diagnosis::SURE;
 use serde::Deserialize;
 
 use super::row::{NUMBERS, Row, has_interval};
@@ -195,7 +196,12 @@ impl Limits {
                 let drawing = row.drawing.as_ref().map_or(String::new(), |word| format!("{word} in place of the drawing's, or "));
                 Kept::No(format!("an effect was found: {drawing}{}", row.open()))
             }
-            Some(verdict) => Kept::No(format!("the verdict is {verdict}")),
+            Some(verdict) => match row.number("verdict_probability").filter(|p| verdict == "unknown" && *p < SURE) {
+                Some(p) => Kept::NotKnown(format!(
+                    "the verdict is unknown, and not surely ({p:.2}): diagnose the unit with all of its records as --fit, or record it again"
+                )),
+                None => Kept::No(format!("the verdict is {verdict}")),
+            },
             None => Kept::NotKnown("there is no verdict".into()),
         });
         let held = row.is_not_predicted().then(|| Kept::NotKnown(NOT_PREDICTED.into()));
@@ -318,6 +324,21 @@ mod tests {
         assert!(
             below.reasons().unwrap().starts_with("verdict_probability is 0.6300, not within 0.8 and 1: a small fault may hide")
         );
+    }
+
+    /// What nothing explains, and is not sure to be there, is no fault either.
+    #[test]
+    fn an_unknown_that_is_not_sure_is_not_known() {
+        let limits = check_limits("limits.ron".as_ref(), "(limits: {}, verdicts: [\"recalibrate\"])").unwrap();
+        let of = |sure: f64| {
+            let verdicts = json!({"none": 0.0, "recalibrate": 1.0 - sure, "explained": 0.0, "unknown": sure});
+            let diagnosis = json!({"verdict": "unknown", "verdicts": verdicts});
+            limits.judge(&Row::of(&json!({"unit": "U", "measured": {}, "diagnosis": diagnosis})))
+        };
+        let [sure, unsure] = [of(0.95), of(0.57)];
+        assert_eq!((sure.word(), sure.reasons().unwrap().as_str()), ("fail", "the verdict is unknown"));
+        assert_eq!(unsure.word(), "not known");
+        assert!(unsure.reasons().unwrap().starts_with("the verdict is unknown, and not surely (0.57): "), "{unsure:?}");
     }
 
     #[test]
