@@ -56,7 +56,7 @@ pub use layout::{Domain, Layout, Rectangle, Region};
 pub use mechanics::{MechanicalState, Relaxation};
 pub use model::{BiasOperator, Model};
 pub use parametric::{
-    Courses, Effort as ModelEffort, MODEL_SAFETY, MODULI, Number, Parameter, ParametricModel, Projected, Range, Slopes,
+    Courses, Effort as ModelEffort, FieldsOn, MODEL_SAFETY, MODULI, Number, Parameter, ParametricModel, Projected, Range, Slopes,
     Tolerance, Tolerances,
 };
 pub use profile::{Profile, Smooth};

@@ -23,6 +23,8 @@ pub struct Model {
     map: DofMap,
     factor: Condensed,
     thermal_stresses: Vec<Option<DMatrix<f64>>>,
+    /// thermal stress of the coil's transverse expansion, as it is drawn
+    transverse_stresses: Vec<Option<DMatrix<f64>>>,
     coupling: OnceLock<Coupling>,
     probes: Vec<Probe>,
     bore: Probe,
@@ -88,6 +90,7 @@ impl Model {
         let coefficients = design.optics.coefficients(winding.length())?;
         let grid = Grid::graded(layout, resolution, grading, Domain::Solids, state.bonds)?;
         let (map, factor, thermal_stresses) = assemble(design, &grid, state)?;
+        let transverse_stresses = transverse_stresses(design, state)?;
         let mut prober = Prober::new(&grid);
         let probes = winding.turns().iter().map(|t| prober.probe("winding", t.r, t.y)).collect::<Result<_, _>>()?;
         let lowest = layout.solids.iter().filter(|s| s.r[0] == layout.bore).map(|s| s.y[0]).fold(f64::INFINITY, f64::min);
@@ -102,6 +105,7 @@ impl Model {
             map,
             factor,
             thermal_stresses,
+            transverse_stresses,
             coupling: OnceLock::new(),
             probes,
             bore,
@@ -234,11 +238,30 @@ impl Model {
     /// [`Error::Solve`] if a solve leaves a residual.
     pub fn bias_operator(&self) -> Result<BiasOperator, Error> {
         let (mut operator, adjoint) = self.adjoint()?;
+        self.add_through(&mut operator, self.coupling()?, &adjoint);
+        Ok(operator)
+    }
+
+    /// The same, and what each relative change of the coil's transverse expansion adds to it: strains are linear in what expands.
+    ///
+    /// # Errors
+    /// As [`Self::bias_operator`].
+    pub fn bias_operator_and_per_expansion(&self) -> Result<[BiasOperator; 2], Error> {
+        let (mut operator, adjoint) = self.adjoint()?;
+        let none = vec![0.0; operator.shupe.len()];
+        let mut per_expansion = BiasOperator { shupe: none.clone(), eo_axial: none.clone(), eo_radial: none };
+        self.add_through(&mut operator, self.coupling()?, &adjoint);
+        let coupling = at("structure", self.problem().coupling(&self.transverse_stresses))?;
+        self.add_through(&mut per_expansion, &coupling, &adjoint);
+        Ok([operator, per_expansion])
+    }
+
+    /// Adds to the elasto-optic parts of an operator what a temperature's load does by their adjoint displacements.
+    fn add_through(&self, operator: &mut BiasOperator, coupling: &Coupling, adjoint: &[Vec<f64>]) {
         for (part, adjoint) in [&mut operator.eo_axial, &mut operator.eo_radial].into_iter().zip(adjoint) {
-            let through = self.coupling()?.multiply_transposed(&self.map.expand(&adjoint));
+            let through = coupling.multiply_transposed(&self.map.expand(adjoint));
             part.iter_mut().zip(through).for_each(|(g, t)| *g += t);
         }
-        Ok(operator)
     }
 
     /// Bias in a steady ramp of 1 K/s: the operator applied to a uniform rate, whose load needs no matrix.
@@ -292,6 +315,17 @@ fn assemble(design: &Design, grid: &Grid, state: &MechanicalState) -> Result<Ass
     let map = constraints.eliminate(&problem.used(|_| true));
     let factor = at("structure", problem.condense(&map, &laws))?;
     Ok((map, factor, stresses))
+}
+
+/// Thermal stress of the coil's transverse expansion in a state, by regions; of the others nothing.
+fn transverse_stresses(design: &Design, state: &MechanicalState) -> Result<Vec<Option<DMatrix<f64>>>, Error> {
+    let with = |factor: f64| {
+        let state = MechanicalState { transverse_expansion: factor, ..*state };
+        region_law(design, Region::Coil, &state).map(|(_, stress)| stress)
+    };
+    let mut stresses = vec![None; Region::COUNT];
+    stresses[Region::Coil as usize] = Some(with(1.0)? - with(0.0)?);
+    Ok(stresses)
 }
 
 /// One node of every connected body: each is free to move along the axis until it is held.

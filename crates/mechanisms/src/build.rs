@@ -1,11 +1,15 @@
 //! Construction of a design's models: full solutions, side by side.
 
+use crate::bond::{self, Bond, FOLLOWED};
 use crate::catalogue::debond;
 use crate::design::{heatable_flanges, with_heater};
 use crate::heat_path::HeatPath;
-use crate::library::{Library, Models, Opened, unheated};
+use crate::library::{Library, Models, unheated};
 use crate::mechanism::Mechanism;
-use coil::{Bonds, COARSE, Design, Error, MechanicalState, Model, ModelEffort, ParametricModel, Range, Side, Tolerances};
+use coil::{
+    Bonds, COARSE, Design, Error, MechanicalState, Model, ModelEffort, Parameter, ParametricModel, Projected, Range, Side,
+    Tolerances,
+};
 use progress::Step;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -14,11 +18,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// The task, as it is told.
 const TASK: &str = "modelling the design and what may be left out of it";
 
-/// Open shares of a bond that are tabulated: the response follows the layers of the winding, steps and all.
-const OPEN: [f64; 23] = [
-    0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09, 0.1, 0.125, 0.15, 0.18, 0.21, 0.25, 0.3, 0.36, 0.44, 0.53, 0.62, 0.71,
-    0.8, 0.9,
-];
+/// Relative change of a constant by which a bond's slopes are found: small, and towards where every constant may lie.
+const SLOPE: f64 = -0.02;
 
 /// The paths of heat that a design has, by the ids of their mechanisms and their places.
 fn heat_paths(design: &Design, mechanisms: &[&dyn Mechanism]) -> Vec<(String, usize, HeatPath)> {
@@ -60,8 +61,9 @@ impl Models {
         progress: &(dyn Fn(Step) + Sync),
     ) -> Result<Self, Error> {
         let design = &unheated(drawing);
-        let open = debond::flanges(design);
-        let (done, all) = (AtomicUsize::new(0), ModelEffort::default().solutions() + open.len() * OPEN.len());
+        let (open, shares) = (debond::flanges(design), bond::shares(design.winding.layers));
+        let of_slopes = bond::of_slopes(&shares);
+        let (done, all) = (AtomicUsize::new(0), ModelEffort::default().solutions() + open.len() * shares.len());
         let one = || progress(Step::counted(TASK, done.fetch_add(1, Ordering::Relaxed) + 1, all));
         let mut ranges = ranges(design, tolerances, mechanisms);
         for heater in &drawing.heat.heaters {
@@ -70,21 +72,34 @@ impl Models {
         let model = ParametricModel::new(design, &ranges, &COARSE, &ModelEffort::default(), &one)?;
         // temperatures at which the bond opens do not matter: both states are known
         let [below, hysteresis] = debond::OPENS;
-        let opening = |side: Side, share: f64| -> Result<_, Error> {
-            let opened = debond::with_opening(design, side, below, hysteresis, share);
-            let at = |bonds, transverse_expansion| {
-                let state = MechanicalState { bonds, transverse_expansion, ..MechanicalState::NOMINAL };
-                model.project(&Model::in_state(&opened, &COARSE, &state)?)
+        let open_at = |design: &Design, side: Side, share: f64| debond::with_opening(design, side, below, hysteresis, share);
+        let solved =
+            |opened: &Design, bonds| Model::in_state(opened, &COARSE, &MechanicalState { bonds, ..MechanicalState::NOMINAL });
+        // the bias as drawn, per relative change of the transverse expansion, and of each constant that is followed, if any is here
+        let projected = |side: Side, share: f64, followed: &[Parameter], bonds| -> Result<Vec<Projected>, Error> {
+            let full = solved(&open_at(design, side, share), bonds)?;
+            let fields = model.fields_on(full.grid())?;
+            let [drawn, per_expansion] = full.bias_operator_and_per_expansion()?.map(|operator| fields.project(&operator));
+            let slope = |parameter: &Parameter| {
+                let Some(value) = parameter.of(design) else { return Ok(drawn.less(&drawn)) };
+                let moved = parameter.set(design, (1.0 + SLOPE) * value);
+                let operator = solved(&open_at(&moved, side, share), bonds)?.bias_operator()?;
+                Ok(fields.project(&operator).less(&drawn).over(SLOPE))
             };
-            let change = |factor| Ok::<_, Error>(at(Bonds::Opened, factor)?.less(&at(Bonds::Closed, factor)?));
-            // strains are linear in what expands
-            let (drawn, doubled) = (change(1.0)?, change(2.0)?);
-            one();
-            Ok(Opened { share, per_expansion: doubled.less(&drawn), drawn })
+            let slopes = followed.iter().map(slope).collect::<Result<Vec<_>, Error>>()?;
+            Ok([drawn, per_expansion].into_iter().chain(slopes).collect())
         };
-        let of_flange = |side: Side| OPEN.par_iter().map(|share| opening(side, *share)).collect::<Result<_, _>>();
-        let openings = open.into_iter().map(of_flange).collect::<Result<_, _>>()?;
-        Ok(Self { drawing: drawing.clone(), tolerances: tolerances.clone(), model, openings })
+        let opening = |side: Side, share: f64| -> Result<_, Error> {
+            let followed = if of_slopes.contains(&share) { &FOLLOWED[..] } else { &[] };
+            let [opened, closed] = [Bonds::Opened, Bonds::Closed].map(|bonds| projected(side, share, followed, bonds));
+            one();
+            Ok((share, opened?.iter().zip(&closed?).map(|(opened, closed)| opened.less(closed)).collect()))
+        };
+        let bond = |side: Side| -> Result<_, Error> {
+            Ok(Bond::new(shares.par_iter().map(|share| opening(side, *share)).collect::<Result<_, _>>()?))
+        };
+        let bonds = open.into_iter().map(bond).collect::<Result<_, _>>()?;
+        Ok(Self { drawing: drawing.clone(), tolerances: tolerances.clone(), model, bonds })
     }
 }
 

@@ -89,7 +89,7 @@ impl Chain {
         material.extend(off(|of| of.of_mechanics() && !of.of_winding()));
         add(Stage::Material, material);
 
-        let bond = record.openings.iter().flat_map(|flange| flange.iter().step_by((flange.len() / 2).max(1)));
+        let bond = record.bonds.iter().flat_map(|bond| bond.openings.iter().step_by((bond.openings.len() / 2).max(1)));
         add(Stage::Bond, bond.flat_map(|open| shaped(&Change::of_parts(open.drawn.clone()), &hats)).collect());
 
         let layers = self.library().design().winding.layers;

@@ -3,6 +3,7 @@
 //! [`Library`] holds reduced models of a design at chosen values of every mechanism's parameters; [`Prepared`] runs them under the
 //! chamber of one recording; [`Gyro`] interpolates between them and is the forward model that [`diagnosis`] fits.
 
+mod bond;
 mod build;
 mod catalogue;
 mod chamber;

@@ -1,5 +1,6 @@
 //! Reduced models of a design, and of what it may leave out: once for every design of a box, and at one of them.
 
+use crate::bond::{self, Bond};
 use crate::constants::{Constant, constants};
 use crate::design::{heatable_flanges, with_heater, with_tail};
 use crate::heat_path::{AtWork, HeatPath};
@@ -27,18 +28,8 @@ pub struct Models {
     pub(crate) drawing: Design,
     pub(crate) tolerances: Tolerances,
     pub(crate) model: ParametricModel,
-    /// of each flange whose bond can open, by the open share: opened less closed
-    pub(crate) openings: Vec<Vec<Opened<Projected>>>,
-}
-
-/// The change that an open share of a bond makes.
-#[derive(Debug, Clone)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct Opened<T> {
-    pub(crate) share: f64,
-    pub(crate) drawn: T,
-    /// what is added for each relative change of the coil's transverse expansion
-    pub(crate) per_expansion: T,
+    /// of each flange whose bond can open: opened less closed
+    pub(crate) bonds: Vec<Bond<Projected>>,
 }
 
 /// The coil along a path of heat.
@@ -69,7 +60,7 @@ pub struct Library {
     /// with these, too
     design: Design,
     pub(crate) constants: Vec<Constant>,
-    /// thermometer, mean of the coil, nominal parts; parts at each modulus, the same with twice the expansion; of each opening
+    /// thermometer, mean of the coil, nominal parts; parts at each modulus, the same with twice the expansion; of each bond
     pub(crate) base: Reduced,
     pub(crate) slopes: Slopes,
     pub(crate) fields: TurnFields,
@@ -132,9 +123,8 @@ impl Library {
         let wider = |x: &f64| MechanicalState { transverse_expansion: 2.0, ..softer(x) };
         let states: Vec<MechanicalState> =
             [MechanicalState::NOMINAL].into_iter().chain(moduli.iter().map(softer)).chain(moduli.iter().map(wider)).collect();
-        let of_each = models.openings.iter().flatten().flat_map(|opened| [&opened.drawn, &opened.per_expansion]);
-        let openings: Vec<Projected> = of_each.cloned().collect();
-        let base = model.in_states_and(&design, &states, &openings)?;
+        let bonds: Vec<Projected> = models.bonds.iter().flat_map(Bond::iter).cloned().collect();
+        let base = model.in_states_and(&design, &states, &bonds)?;
         let fields = model.fields(&design, &MechanicalState::NOMINAL)?;
         let constants = constants(&models.drawing, &models.tolerances);
         let parameters: Vec<_> = constants.iter().map(|c| c.parameter).collect();
@@ -216,17 +206,45 @@ impl Library {
         self.heat_paths.iter().filter_map(|(id, _, path)| Some((place(path.factor_on?)?, id.clone()))).collect()
     }
 
-    /// Changes of the parts by each opening of each flange, about the design's own expansion.
-    pub(crate) fn of_openings(&self) -> Vec<Vec<Opened<Functionals>>> {
-        let [own, drawn] = [&self.design, &self.models.drawing].map(|design| design.body.elastic.alpha_r);
-        let factor = if drawn == 0.0 { 1.0 } else { own / drawn };
-        let mut states = 1 + 2 * self.moduli.len()..;
-        let mut of = |opened: &Opened<Projected>| {
-            let (drawn, per_expansion) = (self.functionals(states.next()?), self.functionals(states.next()?));
-            let drawn = [0, 1, 2].map(|p: usize| &drawn[p] + &per_expansion[p] * (factor - 1.0));
-            Some(Opened { share: opened.share, drawn, per_expansion: per_expansion.map(|part| part * factor) })
+    /// Changes of the parts by each opening of each flange, about the design's own constants.
+    pub(crate) fn bonds(&self) -> Vec<Bond<Functionals>> {
+        let relative = |parameter: Parameter| {
+            let [own, drawn] = [&self.design, &self.models.drawing].map(|design| parameter.of(design).unwrap_or(0.0));
+            if drawn == 0.0 { 0.0 } else { own / drawn - 1.0 }
         };
-        self.models.openings.iter().map(|flange| flange.iter().filter_map(&mut of).collect()).collect()
+        let (expansion, followed) = (relative(Parameter::TransverseExpansion), bond::FOLLOWED.map(relative));
+        let mut states = 1 + 2 * self.moduli.len()..;
+        let mut about = |bond: &Bond<Projected>| {
+            let mut bond = bond.map(|_| self.functionals(states.next().unwrap_or(0)));
+            let shares: Vec<_> = bond.openings.iter().map(|opened| bond.weights(opened.share)).collect();
+            for (opened, at) in bond.openings.iter_mut().zip(&shares) {
+                for p in 0..3 {
+                    opened.drawn[p] += &opened.per_expansion[p] * expansion;
+                    opened.per_expansion[p] *= 1.0 + expansion;
+                    for (weight, (_, slopes)) in at.slopes.iter().zip(&bond.slopes) {
+                        slopes
+                            .iter()
+                            .zip(followed)
+                            .for_each(|(slope, moved)| opened.drawn[p].axpy(weight * moved, &slope[p], 1.0));
+                    }
+                }
+            }
+            let followed = |slopes: &mut Vec<Functionals>| {
+                slopes.iter_mut().zip(followed).for_each(|(slope, moved)| slope.iter_mut().for_each(|part| *part *= 1.0 + moved));
+            };
+            bond.slopes.iter_mut().for_each(|(_, slopes)| followed(slopes));
+            bond
+        };
+        self.models.bonds.iter().map(&mut about).collect()
+    }
+
+    /// A watt in one of the flanges that may be heated, in a design with a constant times a factor; `None` where there is no such flange or constant.
+    pub(crate) fn heated_with(&self, place: usize, parameter: Parameter, factor: f64) -> Option<Result<Reduced, Error>> {
+        let side = *heatable_flanges(&self.models.drawing).get(place)?;
+        let changed = parameter.set(&self.design, factor * parameter.of(&self.design)?);
+        let changed = with_heater(&changed, side, 1.0);
+        let model = &self.models.model;
+        Some(model.in_states(&model.nearest(&changed), &[MechanicalState::NOMINAL]))
     }
 
     fn functionals(&self, state: usize) -> Functionals {

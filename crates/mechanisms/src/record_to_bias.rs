@@ -1,10 +1,11 @@
 //! A library's responses to the chamber of one recording.
 
+use crate::bond::Bond;
 use crate::chamber::Chamber;
 use crate::constants::tails;
 use crate::course::{BETWEEN, Clock, Course, Delay, Parts, Series, Undelayed, minus, product, undelayed};
 use crate::curvature::Curvature;
-use crate::library::{Functionals, Library, Opened};
+use crate::library::Library;
 use crate::passed::{Passed, passed};
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::{Error, Parameter, Profile, Reduced};
@@ -60,7 +61,7 @@ pub struct Prepared {
     pub(crate) modulus: Vec<(f64, Parts, Parts)>,
     pub(crate) paths: Vec<Along>,
     /// of each flange whose bond can open: open minus closed
-    pub(crate) openings: Vec<Vec<Opened<Parts>>>,
+    pub(crate) bonds: Vec<Bond<Parts>>,
     /// of each flange that may be heated
     pub(crate) heaters: Vec<Heating>,
     /// further columns by their names
@@ -112,6 +113,11 @@ impl Heating {
 }
 
 impl Prepared {
+    /// Response of a model to a watt in its flange that is switched on `before` the first row \[s\].
+    pub(crate) fn heated_by(&self, model: &Reduced, before: f64) -> Series {
+        Heating::new(model, &Clock::new(&self.time, &self.chamber, self.averaging), self.averaging).at(model, before)
+    }
+
     /// Instants \[s\].
     pub fn time(&self) -> &[f64] {
         &self.time
@@ -229,11 +235,7 @@ impl Prepared {
             Along { id: path.id.clone(), place: path.place, own: path.own, nodes: path.nodes.clone(), changes }
         });
         let heaters = library.heaters.iter().map(|model| Heating::new(model, &clock, averaging)).collect();
-        let opened = |Opened { share, drawn, per_expansion }: Opened<Functionals>| {
-            let [drawn, per_expansion] = [drawn, per_expansion].map(|functionals| course.parts(&functionals));
-            Opened { share, drawn, per_expansion }
-        };
-        let openings = library.of_openings().into_iter().map(|flange| flange.into_iter().map(opened).collect()).collect();
+        let bonds = library.bonds().iter().map(|bond| bond.map(|functionals| course.parts(functionals))).collect();
         let coil = course.output(library.base.coil_mean());
         let level = nominal.sensor.clone();
         let slopes_of = |series: &[f64]| recording::condition::slopes(time, series);
@@ -267,7 +269,7 @@ impl Prepared {
                 .position(|c| c.parameter == Parameter::SpoolExpansion)
                 .map(|k| (k, library.values()[k])),
             modulus: library.of_modulus().map(|(x, n, f)| (x, course.parts(&n), course.parts(&f))).collect(),
-            openings,
+            bonds,
             paths: paths.collect(),
             heaters,
             columns: BTreeMap::new(),

@@ -1,6 +1,7 @@
 //! Mechanisms whose law is text: a user's own.
 
-use crate::catalogue::debond::{self, share_weights};
+use crate::bond;
+use crate::catalogue::debond;
 use crate::course::{Clock, GAP, Series, add, total};
 use crate::design::heatable_flanges;
 use crate::law_tools::Chain;
@@ -273,13 +274,13 @@ impl Mechanism for Written {
             follow(record.driven(heated, 1, &clock(&watts)));
         }
         if let Some(open) = of(Target::OpenBond)
-            && let Some(openings) = record.openings.first()
+            && let Some(bond) = record.bonds.first()
         {
-            let wider = change.per_expansion.get_or_insert_with(|| Change::none(record).parts);
+            let mut per: Vec<_> = bond::constants().map(|_| Change::none(record).parts).collect();
             for (n, share) in means(record, &run, &open).into_iter().enumerate() {
-                let w = share_weights(openings, share);
-                w.iter().zip(openings).for_each(|(w, opened)| opened.add_to([&mut change.parts, &mut *wider], n, *w));
+                bond.add_to(&mut change.parts, &mut per, &bond.weights(share), n, 1.0);
             }
+            change.per = bond::constants().zip(per).collect();
         }
         let factor = |target: Target| {
             of(target).map(|series| means(record, &run, &series).into_iter().map(|x| least(1.0 + x)).collect::<Vec<_>>())

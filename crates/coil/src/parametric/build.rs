@@ -298,7 +298,7 @@ impl Parameter {
     }
 
     /// Whether the heat flow depends on it, other than in proportion.
-    pub(super) fn of_heat(self) -> bool {
+    pub fn of_heat(self) -> bool {
         !self.is_elastic() && !matches!(self, Self::Heater(_)) && !self.of_winding()
     }
 

@@ -21,7 +21,7 @@ mod tolerance;
 mod turns;
 
 pub use effort::{Effort, MODULI};
-pub use model::{MODEL_SAFETY, ParametricModel, Projected};
+pub use model::{FieldsOn, MODEL_SAFETY, ParametricModel, Projected};
 pub use parameter::{Parameter, Tolerance};
 pub use range::Range;
 

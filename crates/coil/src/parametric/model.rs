@@ -8,8 +8,8 @@ use super::range::Range;
 use super::section::Section;
 use super::structure::Structure;
 use super::turns::{Fibre, Turns, Weighted};
-use crate::probe::Prober;
-use crate::{Bonds, Design, Error, Grid, MechanicalState, MeshFineness, Model, Outputs, Reduced, TurnFields};
+use crate::probe::{Probe, Prober};
+use crate::{BiasOperator, Bonds, Design, Error, Grid, MechanicalState, MeshFineness, Outputs, Reduced, TurnFields};
 use nalgebra::{DMatrix, DVector};
 use winding::{Spec, Winding};
 
@@ -31,7 +31,7 @@ pub struct ParametricModel {
     pub(super) coil_mean: DVector<f64>,
 }
 
-/// Bias parts of some mechanics as functionals of a parametric model's fields of temperature; made by [`ParametricModel::project`].
+/// Bias parts of some mechanics as functionals of a parametric model's fields of temperature; made by [`FieldsOn::project`].
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Projected {
@@ -43,6 +43,35 @@ impl Projected {
     #[must_use]
     pub fn less(&self, other: &Self) -> Self {
         Self { parts: [0, 1, 2].map(|p: usize| &self.parts[p] - &other.parts[p]) }
+    }
+
+    /// These over a number.
+    #[must_use]
+    pub fn over(&self, divisor: f64) -> Self {
+        Self { parts: self.parts.each_ref().map(|part| part / divisor) }
+    }
+}
+
+/// A parametric model's fields of temperature on another grid; made by [`ParametricModel::fields_on`].
+#[derive(Debug, Clone)]
+pub struct FieldsOn<'a> {
+    model: &'a ParametricModel,
+    /// of each node of that grid on the model's own
+    probes: Vec<Probe>,
+}
+
+impl FieldsOn<'_> {
+    /// The bias parts of a full mechanical model on that grid, on the fields: what no state of the reduced mechanics has, as a bond that is open.
+    pub fn project(&self, operator: &BiasOperator) -> Projected {
+        let (grid, fields) = (&self.model.grid, &self.model.temperatures.values);
+        let of = |part: &[f64]| {
+            let mut at_nodes = vec![0.0; grid.mesh().nodes().len()];
+            self.probes.iter().zip(part).for_each(|(probe, weight)| probe.add_value(&mut at_nodes, *weight));
+            let mut at_places = DVector::zeros(fields.nrows());
+            grid.places().iter().zip(at_nodes).for_each(|(place, weight)| at_places[*place] += weight);
+            fields.tr_mul(&at_places)
+        };
+        Projected { parts: [of(&operator.shupe), of(&operator.eo_axial), of(&operator.eo_radial)] }
     }
 }
 
@@ -149,16 +178,14 @@ impl ParametricModel {
         self.of_states(design, self.size(), states, &[])
     }
 
-    /// The bias parts of a full mechanical model of the design that this was made about, on the fields of temperature: what no state of the
-    /// reduced mechanics has, as a bond that is open.
+    /// The fields of temperature at the nodes of the grid of a full mechanical model of the design that this was made about.
     ///
     /// # Errors
-    /// [`Error::Resolution`] if a node of the other's mesh lies outside this one's.
-    pub fn project(&self, model: &Model) -> Result<Projected, Error> {
-        let operator = model.bias_operator()?;
-        let fields = self.at_nodes(&self.section, model.grid(), Prober::new(&self.grid))?;
-        let of = |part: &[f64]| fields.tr_mul(&DVector::from_column_slice(part));
-        Ok(Projected { parts: [of(&operator.shupe), of(&operator.eo_axial), of(&operator.eo_radial)] })
+    /// [`Error::Resolution`] if a node of the grid lies outside this one's.
+    pub fn fields_on(&self, grid: &Grid) -> Result<FieldsOn<'_>, Error> {
+        let mut prober = Prober::new(&self.grid);
+        let probes = grid.mesh().nodes().iter().map(|[r, y]| prober.probe("spool", *r, *y)).collect::<Result<_, _>>()?;
+        Ok(FieldsOn { model: self, probes })
     }
 
     /// As [`Self::in_states`], with the bias parts of projected mechanics behind them, in their order.
@@ -167,20 +194,6 @@ impl ParametricModel {
     /// As [`Self::at`].
     pub fn in_states_and(&self, design: &Design, states: &[MechanicalState], projected: &[Projected]) -> Result<Reduced, Error> {
         self.of_states(design, self.size(), states, projected)
-    }
-
-    /// Every temperature field at the nodes of a grid of a changed section: one row a node.
-    pub(super) fn at_nodes(&self, changed: &Section, grid: &Grid, mut prober: Prober) -> Result<DMatrix<f64>, Error> {
-        let fields: Vec<Vec<f64>> = (0..self.temperatures.values.ncols())
-            .map(|k| self.grid.places().iter().map(|&place| self.temperatures.values[(place, k)]).collect())
-            .collect();
-        let mut values = DMatrix::zeros(grid.mesh().nodes().len(), fields.len());
-        for (node, place) in grid.mesh().nodes().iter().enumerate() {
-            let [r, y] = self.section.reference(changed, *place);
-            let probe = prober.probe("spool", r, y)?;
-            fields.iter().enumerate().for_each(|(k, field)| values[(node, k)] = probe.value_of(field));
-        }
-        Ok(values)
     }
 
     fn on(&self, design: &Design, size: [usize; 2]) -> Result<Reduced, Error> {

@@ -7,7 +7,7 @@ use crate::Error;
 
 /// Least weight of a minimum beside the best that is told: what is less likely moves no end of an interval.
 const LEAST: f64 = 0.01;
-/// Standard deviations from which two minima are two.
+/// Standard deviations, of the narrower one, from which two minima are two.
 const APART: f64 = 2.0;
 
 impl Fitter<'_> {
@@ -31,8 +31,9 @@ impl Fitter<'_> {
                 let mut u = best.u.clone();
                 u[at] = start;
                 let fit = objective.concluded(objective.descend(objective.point(u)?)?)?;
+                // a wide one beside a narrow one is another
                 let is_apart =
-                    |other: &Fit| (fit.u[at] - other.u[at]).abs() > APART * deviation(&fit, at).max(deviation(other, at));
+                    |other: &Fit| (fit.u[at] - other.u[at]).abs() > APART * deviation(&fit, at).min(deviation(other, at));
                 let counts = fit.log_evidence - best.log_evidence > LEAST.ln();
                 if counts && std::iter::once(best).chain(&found).all(is_apart) {
                     found.push(fit);

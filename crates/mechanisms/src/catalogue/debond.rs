@@ -1,11 +1,10 @@
 //! A bond of coil and flange whose outer part opens in the cold.
 
 use crate::Prepared;
+use crate::bond::{self, LEAST, MOST};
 use crate::change::Threshold;
 use crate::course::Parts;
 use crate::design::{bonded_flanges, choice_of, chosen};
-use crate::interpolation::cubic_weights;
-use crate::library::Opened;
 use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, across, grid};
 use coil::{Bonds, Design, MechanicalState, Mechanics, Opening, Side};
 use diagnosis::{Parameter, Prior};
@@ -37,6 +36,10 @@ pub(super) const DEBOND: Named = Named {
     caveat: |_| None,
     offer: |design, scene| {
         let (range, flanges) = (scene.temperatures, flanges(design));
+        // what a share does turns back within two layers: other minima are sought in each of these
+        let [coldest, hottest] = range;
+        let turns = (1..).map(|k| 2.0 * f64::from(k) / design.winding.layers as f64).take_while(|share| *share < MOST);
+        let turned = turns.filter(|share| *share > LEAST).map(|share| vec![(coldest + hottest) / 2.0, 6.0, share]);
         (!flanges.is_empty()).then(|| Offer {
             parameters: vec![
                 Parameter::new("debond_c", Prior::Uniform { low: range[0], high: range[1] })
@@ -45,10 +48,10 @@ pub(super) const DEBOND: Named = Named {
                 Parameter::new("hysteresis_k", Prior::LogNormal { median: 6.0, spread: 0.6 })
                     .with_step(0.1)
                     .with_search(&AROUND_K),
-                Parameter::new("fraction", Prior::Uniform { low: 0.01, high: 0.9 }).with_step(0.05),
+                Parameter::new("fraction", Prior::Uniform { low: LEAST, high: MOST }).with_step(0.05),
             ],
             choice: choice_of(&flanges),
-            starts: grid(&[&across(range, 40), &[3.0, 9.0], &[0.05, 0.15, 0.35, 0.6]]),
+            starts: grid(&[&across(range, 40), &[3.0, 9.0], &[0.05, 0.15, 0.35, 0.6]]).into_iter().chain(turned).collect(),
         })
     },
     effect: |_, record, active| {
@@ -80,28 +83,12 @@ fn with_first_opening(design: &Design, fraction: f64) -> Design {
     flanges(design).first().map_or_else(|| design.clone(), |side| with_opening(design, *side, below, hysteresis, fraction))
 }
 
-impl Opened<Parts> {
-    /// Adds so much of it in a row: to the change as it is, and to that per relative change of the coil's transverse expansion.
-    pub(crate) fn add_to(&self, [change, wider]: [&mut Parts; 2], row: usize, weight: f64) {
-        for (sum, parts) in [(change, &self.drawn), (wider, &self.per_expansion)] {
-            sum.iter_mut().zip(parts).for_each(|(sum, part)| sum[row] += weight * part[row]);
-        }
-    }
-}
-
-/// Weights of the openings at an open share.
-pub(crate) fn share_weights<T>(openings: &[Opened<T>], share: f64) -> Vec<f64> {
-    // nothing open changes nothing
-    let nodes: Vec<f64> = std::iter::once(0.0).chain(openings.iter().map(|opened| opened.share)).collect();
-    cubic_weights(&nodes, share.clamp(0.0, nodes[nodes.len() - 1])).split_off(1)
-}
-
 /// A coil whose bond opens, less one whose bond holds.
 fn opened(record: &Prepared, place: usize, below: f64, hysteresis: f64, share: f64) -> Change {
-    let openings = &record.openings[place];
-    let w = share_weights(openings, share);
-    let mut change: Parts = [0, 1, 2].map(|_| vec![0.0; record.time.len()]);
-    let mut wider = change.clone();
+    let bond = &record.bonds[place];
+    let weights = bond.weights(share);
+    let none = || [0, 1, 2].map(|_: usize| vec![0.0; record.time.len()]);
+    let (mut change, mut per): (Parts, Vec<Parts>) = (none(), bond::constants().map(|_| none()).collect());
     let mut open = record.coil[0] < below;
     // where it opens and where it closes
     let mut passed = [Vec::new(), Vec::new()];
@@ -120,9 +107,7 @@ fn opened(record: &Prepared, place: usize, below: f64, hysteresis: f64, share: f
             if open { after(below) } else { 0.0 }
         };
         if part > 0.0 {
-            for (w, opened) in w.iter().zip(openings).filter(|(w, _)| **w != 0.0) {
-                opened.add_to([&mut change, &mut wider], n, part * w);
-            }
+            bond.add_to(&mut change, &mut per, &weights, n, part);
         }
     }
     // a hysteresis is known where both are
@@ -131,5 +116,5 @@ fn opened(record: &Prepared, place: usize, below: f64, hysteresis: f64, share: f
         passed[number].iter().map(move |row| Threshold { row: *row, number, parameters: parameters.to_vec() })
     };
     let thresholds = [[1.0, -both], [0.0, both]].into_iter().enumerate().flat_map(of).collect();
-    Change { per_expansion: Some(wider), thresholds, ..Change::of_parts(change) }
+    Change { per: bond::constants().zip(per).collect(), thresholds, ..Change::of_parts(change) }
 }

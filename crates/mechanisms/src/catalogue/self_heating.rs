@@ -1,5 +1,6 @@
 //! Power that is dissipated in a flange since the unit was switched on.
 
+use crate::change::Heated;
 use crate::design::{choice_of, chosen, heatable_flanges, with_heater};
 use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, grid};
 use diagnosis::{Parameter, Prior};
@@ -44,9 +45,10 @@ pub(super) const SELF_HEATING: Named = Named {
         let Some(series) = chain.heated(record, chosen(active), active.values[1]) else {
             return Ok(Effect::Coil(Change::none(record)));
         };
+        let heated = Heated { place: chosen(active), power: active.values[0], before: active.values[1] };
         let scaled = |s: &[f64]| s.iter().map(|x| active.values[0] * x).collect::<Vec<f64>>();
         let parts = [0, 1, 2].map(|p: usize| scaled(&series.parts[p]));
-        Ok(Effect::Coil(Change { thermometer: Some(scaled(&series.sensor)), ..Change::of_parts(parts) }))
+        Ok(Effect::Coil(Change { thermometer: Some(scaled(&series.sensor)), heated: Some(heated), ..Change::of_parts(parts) }))
     },
     extended: |design, active| {
         let side = *heatable_flanges(design).get(chosen(active))?;

@@ -26,7 +26,7 @@ use nalgebra::DMatrix;
 use recalibrated::{Recalibrated, share};
 use recording::median_interval;
 use std::cell::RefCell;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use together::{Acting, Kind, together};
 
 /// A design's library and the recordings it is compared with.
@@ -54,6 +54,8 @@ pub struct Gyro<'m> {
 struct Known {
     effect: Effect,
     gain: [f64; 3],
+    /// of a heater, as [`Gyro::heater_by_constants`] says
+    heater: OnceLock<Vec<f64>>,
 }
 
 /// Effects that are kept.
@@ -270,7 +272,7 @@ impl<'m> Gyro<'m> {
             Effect::Coil(change) => [0, 1, 2].map(|p: usize| share(&change.parts[p], prepared, p)),
             Effect::Readings(_) => [0.0; 3],
         };
-        let effect = Arc::new(Known { effect, gain });
+        let effect = Arc::new(Known { effect, gain, heater: OnceLock::new() });
         if known.len() == KEPT {
             known.remove(0);
         }
@@ -291,15 +293,27 @@ impl<'m> Gyro<'m> {
         }
     }
 
-    /// Relative change of the coil's transverse expansion from where the models are made.
-    fn expansion(&self, u: &[f64]) -> f64 {
-        let library = self.library();
-        let all = library.constants.iter().zip(library.values()).zip(&u[instruments::CONSTANTS..]);
-        let change = |((constant, own), told): ((&Constant, f64), &f64)| {
-            let is_it = constant.parameter == Parameter::TransverseExpansion && own != 0.0;
-            is_it.then(|| constant.value(*told) / own - 1.0)
+    /// Change of a heater's power by a unit of each constant as it is told, where what it does to the thermometer of the first record stays; nothing where no
+    /// flange is heated.
+    fn heater_by_constants(&self, known: &Known) -> Vec<f64> {
+        let Some((heated, record)) = known.change().and_then(|change| change.heated).zip(self.records.first()) else {
+            return Vec::new();
         };
-        all.filter_map(change).sum()
+        let library = self.library();
+        let by = |(constant, own): (&Constant, f64)| {
+            let of_heat = constant.parameter.of_heat() && own != 0.0;
+            let grows = of_heat.then(|| self.chain.heated_with(record, &heated, constant.parameter).ok().flatten()).flatten();
+            -heated.power * grows.unwrap_or(0.0) * constant.value(1.0) / own
+        };
+        library.constants.iter().zip(library.values()).map(by).collect()
+    }
+
+    /// Relative change of a constant from where the models are made.
+    fn relative(&self, u: &[f64], parameter: Parameter) -> f64 {
+        let library = self.library();
+        let mut all = library.constants.iter().zip(library.values()).zip(&u[instruments::CONSTANTS..]);
+        let of = all.find(|((constant, own), _)| constant.parameter == parameter && *own != 0.0);
+        of.map_or(0.0, |((constant, own), told)| constant.value(*told) / own - 1.0)
     }
 
     /// Response of every channel in a record, with nuisances `u` and mechanisms at work.
@@ -317,10 +331,13 @@ impl<'m> Gyro<'m> {
         let at_work = others.into_iter().chain(&away);
         let effects =
             at_work.map(|a| Ok((self.kind(a.mechanism), self.effect(number, a)?))).collect::<Result<Vec<_>, Error>>()?;
-        let expansion = self.expansion(u);
         let changes: Vec<Acting> = effects
             .iter()
-            .filter_map(|(kind, known)| Some(Acting { change: known.change()?, gain: known.gain, kind: *kind, expansion }))
+            .filter_map(|(kind, known)| {
+                let change = known.change()?;
+                let moved = change.per.iter().map(|(parameter, _)| self.relative(u, *parameter)).collect();
+                Some(Acting { change, gain: known.gain, kind: *kind, moved })
+            })
             .collect();
         let by_heat = changes.iter().any(|acting| acting.kind == Kind::Beside).then(|| self.by_heat(&without));
         let parts = together(&record.nominal.parts, &without, by_heat, &changes);
@@ -417,8 +434,13 @@ impl ForwardModel for Gyro<'_> {
         [instruments::RATE_DELAY, instruments::RATE_FILTER].contains(&nuisance) && instruments::may_be_late(&self.nuisances)
     }
 
-    /// Where the coil passes a threshold, the mean of all passages.
+    /// Where the coil passes a threshold, the mean of all passages; where a flange is heated, in the first record.
     fn carries(&self, nuisance: usize, active: &Active) -> Vec<f64> {
+        if let (Ok(known), Some(constant)) = (self.effect(0, active), nuisance.checked_sub(instruments::CONSTANTS))
+            && let Some(by) = known.heater.get_or_init(|| self.heater_by_constants(&known)).get(constant)
+        {
+            return vec![*by];
+        }
         let mut sums: Vec<(f64, Vec<f64>)> = Vec::new();
         for (number, record) in self.records.iter().enumerate() {
             let Some(warms) = self.warms(record, nuisance) else { continue };

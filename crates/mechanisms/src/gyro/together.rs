@@ -10,15 +10,15 @@ pub(super) struct Acting<'a> {
     /// share of every nominal part in its change
     pub(super) gain: [f64; 3],
     pub(super) kind: Kind,
-    /// relative change of the coil's transverse expansion that it goes with
-    pub(super) expansion: f64,
+    /// relative changes of the constants that it names, in their order
+    pub(super) moved: Vec<f64>,
 }
 
 impl Acting<'_> {
     /// Change of a part in a row.
     fn of(&self, part: usize, row: usize) -> f64 {
-        let wider = self.change.per_expansion.as_ref().map_or(0.0, |wider| wider[part][row]);
-        self.change.parts[part][row] + self.expansion * wider
+        let per = self.change.per.iter().zip(&self.moved).map(|((_, per), moved)| moved * per[part][row]);
+        self.change.parts[part][row] + per.sum::<f64>()
     }
 }
 
@@ -94,7 +94,7 @@ mod tests {
     }
 
     fn acting(change: &Change, gain: f64, is_path: bool) -> Acting<'_> {
-        Acting { change, gain: [gain; 3], kind: if is_path { Kind::Path } else { Kind::Other }, expansion: 0.0 }
+        Acting { change, gain: [gain; 3], kind: if is_path { Kind::Path } else { Kind::Other }, moved: Vec::new() }
     }
 
     fn first(changes: &[Acting], without: &Recalibrated) -> Vec<f64> {
@@ -148,7 +148,7 @@ mod tests {
         let (more, large) = (change(NOMINAL.map(|x| 0.7 * x)), change([0.3, 0.1, -0.2, 0.7]));
         let by_heat = ByHeat { parts: parts(NOMINAL.map(|x| 2.0 * x)), gain: [2.0; 3] };
         let without = at(NOMINAL.map(|x| 2.5 * x), 2.5);
-        let winding = |change, gain| Acting { change, gain: [gain; 3], kind: Kind::Beside, expansion: 0.0 };
+        let winding = |change, gain| Acting { change, gain: [gain; 3], kind: Kind::Beside, moved: Vec::new() };
         let [first, ..] = together(&parts(NOMINAL), &without, Some(&by_heat), &[winding(&more, 0.7), winding(&large, 0.2)]);
         let sum: Vec<f64> = NOMINAL.iter().zip(&large.parts[0]).map(|(n, l)| (2.5 + 1.4) * n + 2.0 * l).collect();
         near(&first, &sum);
