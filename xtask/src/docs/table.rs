@@ -1,11 +1,13 @@
-//! The tables of fields in docs/formats.md, made from the schemas.
+//! The tables of docs/formats.md: of fields, made from the schemas, and of the usual tolerances.
 
 use std::fmt::Write as _;
 
+use fogcoil::input;
 use serde_json::Value;
 
-/// Between these lines, NAME being a schema's, the page holds what is made here.
+/// Between these lines, NAME being a schema's, or [`TOLERANCES`], the page holds what is made here.
 const BEGIN: &str = "<!-- fields of ";
+const TOLERANCES: &str = "tolerances";
 const END: &str = "<!-- fields end -->";
 
 /// `page` with every table made anew from `schemas`, by name.
@@ -20,6 +22,9 @@ pub(super) fn renewed(page: &str, schemas: &[(&str, Value)]) -> String {
         if let Some((_, schema)) = schemas.iter().find(|(of, _)| Some(*of) == name) {
             inside = true;
             let _ = write!(text, "\n{}\n", tables(schema)); // a String takes anything
+        } else if name == Some(TOLERANCES) {
+            inside = true;
+            let _ = write!(text, "\n{}\n", usual());
         }
     }
     text
@@ -29,6 +34,15 @@ fn tables(schema: &Value) -> String {
     let mut text = group(schema["title"].as_str().unwrap_or_default(), schema);
     for (name, of) in schema["$defs"].as_object().into_iter().flatten() {
         text += &group(name, of);
+    }
+    text
+}
+
+/// The usual tolerances, by the keys.
+fn usual() -> String {
+    let mut text = "| key | usual tolerance, one standard deviation |\n|---|---|\n".to_owned();
+    for (key, tolerance) in input::usual_tolerances() {
+        let _ = writeln!(text, "| `{key}` | {tolerance} |");
     }
     text
 }
@@ -151,5 +165,11 @@ mod tests {
             "{text}"
         );
         assert_eq!(renewed(&text, &[("x", schema)]), text);
+        let page = "<!-- fields of tolerances: made by `y` -->\n<!-- fields end -->\n";
+        let text = renewed(page, &[]);
+        for row in ["| `coil.material.nu_r` | 0.3 % |", "| `winding.start_mm` | 0.035 mm |", "| `winding.tails_m` | 0.02 m |"] {
+            assert!(text.contains(row), "{text}");
+        }
+        assert_eq!(renewed(&text, &[]), text);
     }
 }

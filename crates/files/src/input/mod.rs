@@ -87,6 +87,6 @@ pub use rows::Table;
 pub use schema::schemas;
 pub use spool::{SpoolCase, read_spool};
 pub use targets::{TargetsCase, check_targets, read_targets};
-pub use tolerances::{keyed, keyed_sd};
+pub use tolerances::{keyed, keyed_sd, usual_tolerances};
 pub use warnings::mean_diameter;
 pub use written_constants::with_constants;

@@ -115,6 +115,16 @@ pub fn keyed_sd(number: Number, design: &Design, tolerances: &Tolerances) -> Opt
     Some(tolerances.sd(number, design)? / key(number, design)?.1)
 }
 
+/// Every key that may carry a tolerance, with the usual one: a share of the number, or in the key's unit.
+pub fn usual_tolerances() -> impl Iterator<Item = (&'static str, String)> {
+    let of = |&(key, number, unit): &(&'static str, Number, f64)| match number.tolerance() {
+        Tolerance::Relative(share) => (key, format!("{} %", (1e5 * share).round() / 1e3)),
+        Tolerance::Absolute(by) => (key, format!("{} {}", (1e6 * by / unit).round() / 1e6, parameter_unit(key))),
+        Tolerance::Exact => (key, "exact".to_owned()),
+    };
+    KEYS.iter().map(of)
+}
+
 /// Largest share: beyond it a number means nothing.
 const MOST: f64 = 0.5;
 
