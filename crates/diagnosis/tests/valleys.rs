@@ -139,3 +139,33 @@ fn an_interval_holds_every_value_that_does_the_same() {
     assert!(twofold.ci90[0] < -1.0 && twofold.ci90[1] > 1.0 && twofold.ci90[1] - twofold.ci90[0] < 2.3, "{twofold:?}");
     assert!(other.ci90[0] < 1.0 && other.ci90[1] > 1.0 && other.ci90[1] - other.ci90[0] < 0.5, "{other:?}");
 }
+
+/// Fits that all begin on one side of a square's turning point know of the other side's better ground by looking there.
+#[test]
+fn the_likeliest_of_several_minima_speaks() {
+    let starts: &[&[f64]] = &[&[-1.0, 0.9], &[-1.0, 0.95], &[-1.0, 1.0], &[-1.0, 1.05], &[-1.0, 1.1], &[3.0, 0.3]];
+    let model = Valleys::new(starts, &[], |p| {
+        let (square, other, ground) = (10.0 * p[0] * p[0], 5.0 * p[1], if p[0] < 0.0 { 4.0 } else { 0.0 });
+        [square, square, square, square, other, other, other, ground]
+    });
+    let record = Observation { channels: vec![vec![10.0, 10.0, 10.0, 10.0, 5.0, 5.0, 5.0, 0.0]], ..Valleys::record() };
+    let found = diagnose(&model, &[0], &[record], &Settings::default(), &|_| ()).expect("a diagnosis");
+    let place = &found.parameters[0][0];
+    assert!((place.value - 1.0).abs() < 0.05 && place.ci90[0] > 0.9 && place.ci90[1] < 1.1, "{place:?}");
+}
+
+/// Near a turning point a parameter is hardly known: that minimum reaches to the narrow one beside it, and is another all the same.
+#[test]
+fn a_wide_minimum_beside_a_narrow_one_stands_in_the_interval() {
+    let starts: &[&[f64]] = &[&[-1.0, 0.9], &[-1.0, 0.95], &[-1.0, 1.0], &[-1.0, 1.05], &[-1.0, 1.1], &[2.0, 0.3]];
+    let model = Valleys::new(starts, &[], |p| {
+        // a hundred times as wide, and as much less likely at its ground
+        let (off, ground) = if p[0] < 0.0 { (20.0 * (p[0] + 1.0), 0.0) } else { (0.2 * (p[0] - 3.0), 2.0 * 100.0_f64.ln()) };
+        let (row, other) = (10.0 + off, 5.0 * p[1]);
+        [row, row, row, row, other, other, other, ground.sqrt()]
+    });
+    let record = Observation { channels: vec![vec![10.0, 10.0, 10.0, 10.0, 5.0, 5.0, 5.0, 0.0]], ..Valleys::record() };
+    let found = diagnose(&model, &[0], &[record], &Settings::default(), &|_| ()).expect("a diagnosis");
+    let place = &found.parameters[0][0];
+    assert!(place.ci90[0] < -0.9 && (5.0..8.0).contains(&place.ci90[1]), "{place:?}");
+}
