@@ -18,8 +18,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// The task, as it is told.
 const TASK: &str = "modelling the design and what may be left out of it";
 
-/// Relative change of a constant by which a bond's slopes are found: small, and towards where every constant may lie.
-const SLOPE: f64 = -0.02;
+/// Relative change of a constant by which a bond's slopes are found: small beside what is left of incompressibility, large beside rounding, and towards where every
+/// constant may lie.
+const SLOPE: f64 = -1e-3;
 
 /// The paths of heat that a design has, by the ids of their mechanisms and their places.
 fn heat_paths(design: &Design, mechanisms: &[&dyn Mechanism]) -> Vec<(String, usize, HeatPath)> {
