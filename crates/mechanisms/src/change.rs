@@ -1,5 +1,6 @@
 //! The change of a response, as a mechanism makes it.
 
+use crate::bond;
 use crate::course::Parts;
 use crate::record_to_bias::Prepared;
 use coil::Parameter;
@@ -9,14 +10,16 @@ use coil::Parameter;
 pub struct Change {
     /// Change of the bias: Shupe, elasto-optic axial and radial \[deg/h\].
     pub parts: Parts,
-    /// What is added to that for a relative change of a constant by 1 \[deg/h\], where it is not as that of the nominal bias.
-    pub per: Vec<(Parameter, Parts)>,
+    /// What constants add, where it is not as what they add to the nominal bias.
+    pub per: Vec<Per>,
+    /// What is added for a CW tail that is longer by a metre, where it is not as that of the nominal bias \[deg/h\]; `None` if it is.
+    pub per_tail: Option<Parts>,
     /// Change of the spool's thermometer \[K\]; `None` if there is none.
     pub thermometer: Option<Vec<f64>>,
     /// Thresholds that the coil passes.
     pub thresholds: Vec<Threshold>,
-    /// A flange whose power does all this.
-    pub heated: Option<Heated>,
+    /// Whether it adds to what constants do: these act on it by `per` and `per_tail` alone.
+    pub apart: bool,
     /// Change of the rate beside the bias \[deg/h\]; `None` if there is none.
     pub rate: Option<Vec<f64>>,
 }
@@ -32,15 +35,22 @@ pub struct Threshold {
     pub parameters: Vec<f64>,
 }
 
-/// A flange that gives off a power, which no record tells.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Heated {
-    /// Which of those that may be heated, from 0.
-    pub place: usize,
-    /// Its power, the mechanism's first parameter \[W\].
-    pub power: f64,
-    /// Time from when it is switched on to the first row \[s\].
-    pub before: f64,
+/// What is added for a relative change of a constant by 1.
+#[derive(Debug, Clone)]
+pub struct Per {
+    /// Which.
+    pub parameter: Parameter,
+    /// What is added to the bias \[deg/h\].
+    pub parts: Parts,
+    /// What is added to the spool's thermometer \[K\]; `None` if nothing is.
+    pub thermometer: Option<Vec<f64>>,
+}
+
+impl Per {
+    /// What an open bond's constants add, which leaves the thermometer alone: parts in the order of [`bond::constants`].
+    pub(crate) fn of_a_bond(parts: Vec<Parts>) -> Vec<Self> {
+        bond::constants().zip(parts).map(|(parameter, parts)| Self { parameter, parts, thermometer: None }).collect()
+    }
 }
 
 impl Change {
@@ -51,7 +61,7 @@ impl Change {
 
     /// The bias changes alone.
     pub fn of_parts(parts: Parts) -> Self {
-        Self { parts, thermometer: None, per: Vec::new(), thresholds: Vec::new(), heated: None, rate: None }
+        Self { parts, thermometer: None, per: Vec::new(), per_tail: None, thresholds: Vec::new(), apart: false, rate: None }
     }
 
     /// The rate changes, but no part of the bias.

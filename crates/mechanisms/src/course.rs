@@ -2,7 +2,7 @@
 
 use crate::library::Functionals;
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
-use coil::{Output, Reduced, Smooth};
+use coil::{Output, Outputs, Reduced, Slopes, Smooth};
 use nalgebra::DMatrix;
 
 /// Place of the spool's thermometer among the channels.
@@ -99,6 +99,60 @@ impl Clock {
         };
         (0..self.rows.len()).map(move |row| [if row > 0 { began(row) } else { 0 }, self.rows[row]])
     }
+
+    /// Derivatives of thermometer and mean bias parts, and of the coil's mean temperature, by every constant, in the rows.
+    pub(crate) fn slopes(&self, slopes: &Slopes) -> Vec<(Series, Vec<f64>)> {
+        let (time, spans) = self.readings_alone();
+        let chamber: Vec<f64> = self.chamber.iter().step_by(BETWEEN).copied().collect();
+        let first = chamber[0];
+        let courses = slopes.run(&time, &[chamber], &[first]);
+        courses.slopes.iter().map(|slope| (in_rows(slope, &time, &spans), at(&slope.coil_mean, &spans))).collect()
+    }
+
+    /// Derivatives of thermometer and mean bias parts by every constant, in the rows, under the second drive, which jumps to 1 `before` the first row \[s\].
+    pub(crate) fn slopes_of_a_step(&self, slopes: &Slopes, before: f64, averaging: f64) -> Vec<Series> {
+        let (rows, mut spans) = self.readings_alone();
+        // the first reading began before its row, but sees nothing from before the drive was on
+        let seen = averaging.min(before);
+        let mut time: Vec<f64> = [before, seen].into_iter().filter(|by| *by > 0.0).map(|by| rows[0] - by).collect();
+        time.dedup();
+        let earlier = time.len();
+        time.extend(rows);
+        spans.iter_mut().flatten().for_each(|n| *n += earlier);
+        if seen > 0.0 {
+            spans[0][0] -= 1;
+        }
+        let courses = slopes.run(&time, &[vec![0.0; time.len()], vec![1.0; time.len()]], &[0.0, 0.0]);
+        let first = if averaging > 0.0 { seen / averaging } else { 0.0 };
+        let of = |slope: &Outputs<Vec<f64>>| {
+            let mut series = in_rows(slope, &time, &spans);
+            series.parts.iter_mut().for_each(|part| part[0] *= first);
+            series
+        };
+        courses.slopes.iter().map(of).collect()
+    }
+
+    /// The instants without the steps between the readings, which derivatives need not; and [`Self::readings`] among them.
+    fn readings_alone(&self) -> (Vec<f64>, Vec<[usize; 2]>) {
+        let time = self.time.iter().step_by(BETWEEN).copied().collect();
+        (time, self.readings().map(|span| span.map(|n| n / BETWEEN)).collect())
+    }
+}
+
+/// Thermometer and mean bias parts of what has a phase at some instants, in readings from one to another.
+fn in_rows(outputs: &Outputs<Vec<f64>>, time: &[f64], spans: &[[usize; 2]]) -> Series {
+    let mean = |phase: &Vec<f64>| -> Vec<f64> {
+        let of = |&[from, to]: &[usize; 2]| {
+            if to > from { (phase[to] - phase[from]) / (time[to] - time[from]) * DEG_PER_H_PER_RAD_PER_S } else { 0.0 }
+        };
+        spans.iter().map(of).collect()
+    };
+    Series { sensor: at(&outputs.thermometer, spans), parts: outputs.parts[0].each_ref().map(mean) }
+}
+
+/// Values at the ends of readings.
+fn at(course: &[f64], spans: &[[usize; 2]]) -> Vec<f64> {
+    spans.iter().map(|[_, n]| course[*n]).collect()
 }
 
 /// The chamber behind a thermometer and a log that are late.
@@ -197,6 +251,10 @@ impl Series {
     pub(crate) fn nothing(&self) -> Self {
         let nothing = vec![0.0; self.sensor.len()];
         Self { parts: [0, 1, 2].map(|_| nothing.clone()), sensor: nothing }
+    }
+
+    pub(crate) fn scale(&mut self, factor: f64) {
+        self.parts.iter_mut().chain([&mut self.sensor]).flatten().for_each(|value| *value *= factor);
     }
 
     /// Adds a multiple of a change.

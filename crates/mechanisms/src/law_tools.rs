@@ -1,19 +1,16 @@
 //! The tools that mechanisms' laws are written with: a library's models under the chamber of a recording, changed.
 
-use crate::change::{Change, Heated};
-use crate::course::{Parts, Series, add, product};
+use crate::change::Change;
+use crate::course::{Parts, Series, add};
 use crate::interpolation::{Lagrange, weights};
 use crate::library::{Functionals, Library};
 use crate::record_to_bias::{Along, Prepared};
 use crate::series::rates_per_hour;
 use bias::units::{DEG_PER_H_PER_RAD_PER_S, S_PER_H};
-use coil::{Error, Parameter};
+use coil::Error;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use winding::LayerDefect;
-
-/// Relative change of a constant by which a heated flange's response to it is found.
-const MOVED: f64 = 0.01;
 
 /// A library with what is worked out from it once for all recordings.
 pub struct Chain {
@@ -80,16 +77,12 @@ impl Chain {
         Some(record.heaters.get(place)?.at(self.library.heaters.get(place)?, before))
     }
 
-    /// Relative change of what a heated flange does to the thermometer in all, for a relative change of a constant by 1; `None` without such a flange or
-    /// constant.
+    /// What a relative change of each constant by 1, and a CW tail that is longer by a metre, add to a watt in a flange, as [`Self::heated`] has it.
     ///
     /// # Errors
     /// [`Error`] names the dimension or property at fault.
-    pub(crate) fn heated_with(&self, record: &Prepared, heated: &Heated, parameter: Parameter) -> Result<Option<f64>, Error> {
-        let Some(own) = self.heated(record, heated.place, heated.before) else { return Ok(None) };
-        let Some(model) = self.library.heated_with(heated.place, parameter, 1.0 + MOVED) else { return Ok(None) };
-        let more = record.heated_by(&model?, heated.before).sensor;
-        Ok(Some((product(&more, &own.sensor) / product(&own.sensor, &own.sensor) - 1.0) / MOVED))
+    pub(crate) fn heated_slopes(&self, record: &Prepared, place: usize, before: f64) -> Result<(Vec<Series>, Parts), Error> {
+        record.heater_slopes(&self.library, place).map(|slopes| slopes.at(before))
     }
 
     /// Parts of a coil whose CW tail is longer than its CCW tail by so much more \[m\], less the nominal ones \[deg/h\].

@@ -238,13 +238,16 @@ impl Library {
         self.models.bonds.iter().map(&mut about).collect()
     }
 
-    /// A watt in one of the flanges that may be heated, in a design with a constant times a factor; `None` where there is no such flange or constant.
-    pub(crate) fn heated_with(&self, place: usize, parameter: Parameter, factor: f64) -> Option<Result<Reduced, Error>> {
-        let side = *heatable_flanges(&self.models.drawing).get(place)?;
-        let changed = parameter.set(&self.design, factor * parameter.of(&self.design)?);
-        let changed = with_heater(&changed, side, 1.0);
-        let model = &self.models.model;
-        Some(model.in_states(&model.nearest(&changed), &[MechanicalState::NOMINAL]))
+    /// Derivatives of the response to a watt in one of the flanges that may be heated, by every constant; and what a metre more of the CW tail changes of
+    /// the parts.
+    pub(crate) fn heater_slopes(&self, side: Side) -> Result<(Slopes, Functionals), Error> {
+        let (design, model) = (with_heater(&self.design, side, 1.0), &self.models.model);
+        let parameters: Vec<_> = self.constants.iter().map(|c| c.parameter).collect();
+        let fields = model.fields(&design, &MechanicalState::NOMINAL)?;
+        let [longer, drawn] =
+            [1.0, 0.0].map(|tail| fields.bias_parts(&design.optics, &winding::wind(&with_tail(&design, tail).winding)?));
+        let (longer, drawn) = (longer?, drawn?);
+        Ok((model.slopes(&design, &parameters)?, [0, 1, 2].map(|p: usize| &longer[p] - &drawn[p])))
     }
 
     fn functionals(&self, state: usize) -> Functionals {

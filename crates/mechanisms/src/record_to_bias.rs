@@ -3,14 +3,16 @@
 use crate::bond::Bond;
 use crate::chamber::Chamber;
 use crate::constants::tails;
-use crate::course::{BETWEEN, Clock, Course, Delay, Parts, Series, Undelayed, minus, product, undelayed};
+use crate::course::{Clock, Course, Delay, Parts, Series, Undelayed, minus, product, undelayed};
 use crate::curvature::Curvature;
+use crate::design::heatable_flanges;
+use crate::heater::{HeaterSlopes, Heating};
 use crate::library::Library;
 use crate::passed::{Passed, passed};
-use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::{Error, Parameter, Profile, Reduced};
 use diagnosis::State;
 use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
 
 /// Change of the first chamber temperature for the effect of an unsettled start \[K\].
 const OFF_REST: f64 = 1.0;
@@ -64,6 +66,7 @@ pub struct Prepared {
     pub(crate) bonds: Vec<Bond<Parts>>,
     /// of each flange that may be heated
     pub(crate) heaters: Vec<Heating>,
+    heater_slopes: Arc<[OnceLock<HeaterSlopes>]>,
     /// further columns by their names
     pub(crate) columns: BTreeMap<String, Vec<f64>>,
     /// what of Earth's rate the gyroscope turned with \[deg/h\], if it was told
@@ -82,40 +85,20 @@ pub(crate) struct Along {
     pub(crate) changes: Vec<Series>,
 }
 
-/// A watt in a flange that is switched on some time before the first row: every mode decays on its own.
-#[derive(Debug, Clone)]
-pub(crate) struct Heating {
-    /// amplitude of every mode in every row, switched on at the first, and its mean rate; the rates of the first row are not used
-    course: Course,
-    averaging: f64,
-}
-
-impl Heating {
-    fn new(model: &Reduced, clock: &Clock, averaging: f64) -> Self {
-        let n = clock.time.len();
-        Self { course: Course::new(model, clock, &[vec![0.0; n], vec![1.0; n]], &[0.0, 0.0]), averaging }
-    }
-
-    /// Response to 1 W that is switched on `before` the first row \[s\].
-    pub(crate) fn at(&self, model: &Reduced, before: f64) -> Series {
-        let mut course = self.course.clone();
-        let drives = course.states.ncols() - model.rates().len();
-        for (i, rate) in model.rates().iter().enumerate() {
-            let (k, decayed) = (drives + i, (-rate * before).exp());
-            // the first reading began before its row, but sees nothing from before the heater was on
-            let began = course.states[(0, k)] * (-rate * (before - self.averaging).max(0.0)).exp();
-            course.states.column_mut(k).scale_mut(decayed);
-            course.rates.column_mut(k).scale_mut(decayed);
-            course.rates[(0, k)] = if self.averaging > 0.0 { (course.states[(0, k)] - began) / self.averaging } else { 0.0 };
-        }
-        course.series(model)
-    }
-}
-
 impl Prepared {
-    /// Response of a model to a watt in its flange that is switched on `before` the first row \[s\].
-    pub(crate) fn heated_by(&self, model: &Reduced, before: f64) -> Series {
-        Heating::new(model, &Clock::new(&self.time, &self.chamber, self.averaging), self.averaging).at(model, before)
+    /// Derivatives of the response to a watt in a flange, of those that may be heated: worked out once, wherever the constants go from there.
+    ///
+    /// # Errors
+    /// [`Error`] names the dimension or property at fault.
+    pub(crate) fn heater_slopes(&self, library: &Library, place: usize) -> Result<&HeaterSlopes, Error> {
+        let known = &self.heater_slopes[place];
+        if let Some(slopes) = known.get() {
+            return Ok(slopes);
+        }
+        let (side, model) = (heatable_flanges(library.design())[place], &library.heaters[place]);
+        let clock = Clock::new(&self.time, &self.chamber, self.averaging);
+        let slopes = HeaterSlopes::new(library, side, model, &clock, &self.heaters[place])?;
+        Ok(known.get_or_init(|| slopes))
     }
 
     /// Instants \[s\].
@@ -169,7 +152,8 @@ impl Prepared {
     /// As [`Self::new`].
     pub fn again(&self, library: &Library, delay: Delay) -> Result<Self, Error> {
         let again = Self::run(library, &self.time, self.recorded.clone(), self.averaging, delay)?;
-        Ok(Self { columns: self.columns.clone(), earth: self.earth, ..again })
+        let heater_slopes = Arc::clone(&self.heater_slopes);
+        Ok(Self { columns: self.columns.clone(), earth: self.earth, heater_slopes, ..again })
     }
 
     /// The same with further columns of the recording, a value for each row, that laws name.
@@ -246,7 +230,7 @@ impl Prepared {
         let second_rates = changing(&first_rates);
         let [longer, sound] = [library.rewound(1.0, None)?, library.rewound(0.0, None)?];
         let tail = course.parts(&[0, 1, 2].map(|p: usize| &longer[p] - &sound[p]));
-        let (slopes, coil_slopes) = clock.slopes(library).into_iter().unzip();
+        let (slopes, coil_slopes) = clock.slopes(&library.slopes).into_iter().unzip();
         let slopes: Vec<Series> = slopes;
         let tolerances = library.constants.iter().map(|c| c.tolerance).zip(slopes.iter().map(|slope| &slope.parts));
         let all: Vec<(f64, &Parts)> = tolerances.chain([(tails(library.design(), library.tolerances()), &tail)]).collect();
@@ -271,6 +255,7 @@ impl Prepared {
             modulus: library.of_modulus().map(|(x, n, f)| (x, course.parts(&n), course.parts(&f))).collect(),
             bonds,
             paths: paths.collect(),
+            heater_slopes: library.heaters.iter().map(|_| OnceLock::new()).collect(),
             heaters,
             columns: BTreeMap::new(),
             earth: None,
@@ -311,31 +296,6 @@ pub fn thermometer_under(library: &Library, time: &[f64], chamber: &[f64]) -> Re
     let clock = Clock::new(time, chamber, 0.0);
     let course = Course::new(&library.base, &clock, std::slice::from_ref(&clock.chamber), &[clock.chamber[0]]);
     Ok(course.output(library.base.thermometer()))
-}
-
-impl Clock {
-    /// Derivatives of thermometer and mean bias parts, and of the coil's mean temperature, by every constant, in the rows.
-    fn slopes(&self, library: &Library) -> Vec<(Series, Vec<f64>)> {
-        // derivatives need no steps between the readings
-        let kept: Vec<usize> = (0..self.time.len()).step_by(BETWEEN).collect();
-        let of = |series: &[f64]| -> Vec<f64> { kept.iter().map(|&n| series[n]).collect() };
-        let (time, chamber) = (of(&self.time), of(&self.chamber));
-        let first = chamber[0];
-        let courses = library.slopes.run(&time, &[chamber], &[first]);
-        let spans: Vec<[usize; 2]> = self.readings().map(|span| span.map(|n| n / BETWEEN)).collect();
-        let mean = |phase: &[f64]| -> Vec<f64> {
-            let of = |&[from, to]: &[usize; 2]| {
-                if to > from { (phase[to] - phase[from]) / (time[to] - time[from]) * DEG_PER_H_PER_RAD_PER_S } else { 0.0 }
-            };
-            spans.iter().map(of).collect()
-        };
-        let in_rows = |temperature: &[f64]| -> Vec<f64> { spans.iter().map(|[_, n]| temperature[*n]).collect() };
-        let series = |slope: &coil::Outputs<Vec<f64>>| {
-            let parts = slope.parts[0].each_ref().map(|phase| mean(phase));
-            (Series { sensor: in_rows(&slope.thermometer), parts }, in_rows(&slope.coil_mean))
-        };
-        courses.slopes.iter().map(series).collect()
-    }
 }
 
 impl Library {

@@ -2,6 +2,7 @@
 
 use crate::bond;
 use crate::catalogue::debond;
+use crate::change::Per;
 use crate::course::{Clock, GAP, Series, add, total};
 use crate::design::heatable_flanges;
 use crate::law_tools::Chain;
@@ -280,7 +281,7 @@ impl Mechanism for Written {
             for (n, share) in means(record, &run, &open).into_iter().enumerate() {
                 bond.add_to(&mut change.parts, &mut per, &bond.weights(share), n, 1.0);
             }
-            change.per = bond::constants().zip(per).collect();
+            change.per = Per::of_a_bond(per);
         }
         let factor = |target: Target| {
             of(target).map(|series| means(record, &run, &series).into_iter().map(|x| least(1.0 + x)).collect::<Vec<_>>())

@@ -2,7 +2,7 @@
 
 use crate::Prepared;
 use crate::bond::{self, LEAST, MOST};
-use crate::change::Threshold;
+use crate::change::{Per, Threshold};
 use crate::course::Parts;
 use crate::design::{bonded_flanges, choice_of, chosen};
 use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, across, grid};
@@ -116,5 +116,5 @@ fn opened(record: &Prepared, place: usize, below: f64, hysteresis: f64, share: f
         passed[number].iter().map(move |row| Threshold { row: *row, number, parameters: parameters.to_vec() })
     };
     let thresholds = [[1.0, -both], [0.0, both]].into_iter().enumerate().flat_map(of).collect();
-    Change { per: bond::constants().zip(per).collect(), thresholds, ..Change::of_parts(change) }
+    Change { per: Per::of_a_bond(per), thresholds, ..Change::of_parts(change) }
 }

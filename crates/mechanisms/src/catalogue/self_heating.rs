@@ -1,6 +1,8 @@
 //! Power that is dissipated in a flange since the unit was switched on.
 
-use crate::change::Heated;
+use crate::change::Per;
+use crate::constants::Constant;
+use crate::course::Series;
 use crate::design::{choice_of, chosen, heatable_flanges, with_heater};
 use crate::mechanism::{Change, Effect, Extent, Named, Offer, Stage, Steady, grid};
 use diagnosis::{Parameter, Prior};
@@ -42,13 +44,21 @@ pub(super) const SELF_HEATING: Named = Named {
         })
     },
     effect: |chain, record, active| {
-        let Some(series) = chain.heated(record, chosen(active), active.values[1]) else {
+        let [power, before] = [active.values[0], active.values[1]];
+        let Some(mut series) = chain.heated(record, chosen(active), before) else {
             return Ok(Effect::Coil(Change::none(record)));
         };
-        let heated = Heated { place: chosen(active), power: active.values[0], before: active.values[1] };
-        let scaled = |s: &[f64]| s.iter().map(|x| active.values[0] * x).collect::<Vec<f64>>();
-        let parts = [0, 1, 2].map(|p: usize| scaled(&series.parts[p]));
-        Ok(Effect::Coil(Change { thermometer: Some(scaled(&series.sensor)), heated: Some(heated), ..Change::of_parts(parts) }))
+        let (mut slopes, mut tail) = chain.heated_slopes(record, chosen(active), before)?;
+        series.scale(power);
+        slopes.iter_mut().for_each(|slope| slope.scale(power));
+        tail.iter_mut().flatten().for_each(|rate| *rate *= power);
+        let per = |(constant, slope): (&Constant, Series)| {
+            let Series { sensor, parts } = slope;
+            Per { parameter: constant.parameter, parts, thermometer: Some(sensor) }
+        };
+        let per = chain.library().constants.iter().zip(slopes).map(per).collect();
+        let thermometer = Some(series.sensor);
+        Ok(Effect::Coil(Change { thermometer, per, per_tail: Some(tail), apart: true, ..Change::of_parts(series.parts) }))
     },
     extended: |design, active| {
         let side = *heatable_flanges(design).get(chosen(active))?;

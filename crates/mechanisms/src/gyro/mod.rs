@@ -26,7 +26,7 @@ use nalgebra::DMatrix;
 use recalibrated::{Recalibrated, share};
 use recording::median_interval;
 use std::cell::RefCell;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use together::{Acting, Kind, together};
 
 /// A design's library and the recordings it is compared with.
@@ -54,8 +54,6 @@ pub struct Gyro<'m> {
 struct Known {
     effect: Effect,
     gain: [f64; 3],
-    /// of a heater, as [`Gyro::heater_by_constants`] says
-    heater: OnceLock<Vec<f64>>,
 }
 
 /// Effects that are kept.
@@ -272,7 +270,7 @@ impl<'m> Gyro<'m> {
             Effect::Coil(change) => [0, 1, 2].map(|p: usize| share(&change.parts[p], prepared, p)),
             Effect::Readings(_) => [0.0; 3],
         };
-        let effect = Arc::new(Known { effect, gain, heater: OnceLock::new() });
+        let effect = Arc::new(Known { effect, gain });
         if known.len() == KEPT {
             known.remove(0);
         }
@@ -291,21 +289,6 @@ impl<'m> Gyro<'m> {
                 Some(Box::new(move |row| slope[row] * constant.value(1.0)))
             }
         }
-    }
-
-    /// Change of a heater's power by a unit of each constant as it is told, where what it does to the thermometer of the first record stays; nothing where no
-    /// flange is heated.
-    fn heater_by_constants(&self, known: &Known) -> Vec<f64> {
-        let Some((heated, record)) = known.change().and_then(|change| change.heated).zip(self.records.first()) else {
-            return Vec::new();
-        };
-        let library = self.library();
-        let by = |(constant, own): (&Constant, f64)| {
-            let of_heat = constant.parameter.of_heat() && own != 0.0;
-            let grows = of_heat.then(|| self.chain.heated_with(record, &heated, constant.parameter).ok().flatten()).flatten();
-            -heated.power * grows.unwrap_or(0.0) * constant.value(1.0) / own
-        };
-        library.constants.iter().zip(library.values()).map(by).collect()
     }
 
     /// Relative change of a constant from where the models are made.
@@ -335,16 +318,17 @@ impl<'m> Gyro<'m> {
             .iter()
             .filter_map(|(kind, known)| {
                 let change = known.change()?;
-                let moved = change.per.iter().map(|(parameter, _)| self.relative(u, *parameter)).collect();
-                Some(Acting { change, gain: known.gain, kind: *kind, moved })
+                let kind = if change.apart { Kind::Apart } else { *kind };
+                let moved = change.per.iter().map(|per| self.relative(u, per.parameter)).collect();
+                Some(Acting { change, gain: known.gain, kind, moved, tail: u[instruments::TAIL] })
             })
             .collect();
         let by_heat = changes.iter().any(|acting| acting.kind == Kind::Beside).then(|| self.by_heat(&without));
         let parts = together(&record.nominal.parts, &without, by_heat, &changes);
-        for Acting { change, .. } in &changes {
-            if let Some(of_thermometer) = &change.thermometer {
-                add(&mut thermometer, of_thermometer, 1.0);
-            }
+        for Acting { change, moved, .. } in &changes {
+            let per = change.per.iter().zip(moved).filter_map(|(per, moved)| Some((per.thermometer.as_ref()?, *moved)));
+            let courses = change.thermometer.iter().map(|course| (course, 1.0)).chain(per);
+            courses.for_each(|(course, much)| add(&mut thermometer, course, much));
         }
         let mut rate = total(&parts);
         rate.iter_mut().for_each(|r| *r *= u[instruments::GAIN]);
@@ -434,13 +418,8 @@ impl ForwardModel for Gyro<'_> {
         [instruments::RATE_DELAY, instruments::RATE_FILTER].contains(&nuisance) && instruments::may_be_late(&self.nuisances)
     }
 
-    /// Where the coil passes a threshold, the mean of all passages; where a flange is heated, in the first record.
+    /// Where the coil passes a threshold, the mean of all passages.
     fn carries(&self, nuisance: usize, active: &Active) -> Vec<f64> {
-        if let (Ok(known), Some(constant)) = (self.effect(0, active), nuisance.checked_sub(instruments::CONSTANTS))
-            && let Some(by) = known.heater.get_or_init(|| self.heater_by_constants(&known)).get(constant)
-        {
-            return vec![*by];
-        }
         let mut sums: Vec<(f64, Vec<f64>)> = Vec::new();
         for (number, record) in self.records.iter().enumerate() {
             let Some(warms) = self.warms(record, nuisance) else { continue };

@@ -2,7 +2,7 @@
 
 use super::recalibrated::{ByHeat, Recalibrated};
 use crate::change::Change;
-use crate::course::Parts;
+use crate::course::{Parts, add};
 
 /// A change among others.
 pub(super) struct Acting<'a> {
@@ -12,13 +12,21 @@ pub(super) struct Acting<'a> {
     pub(super) kind: Kind,
     /// relative changes of the constants that it names, in their order
     pub(super) moved: Vec<f64>,
+    /// by how much the CW tail is longer than drawn \[m\]
+    pub(super) tail: f64,
 }
 
 impl Acting<'_> {
-    /// Change of a part in a row.
-    fn of(&self, part: usize, row: usize) -> f64 {
-        let per = self.change.per.iter().zip(&self.moved).map(|((_, per), moved)| moved * per[part][row]);
-        self.change.parts[part][row] + per.sum::<f64>()
+    /// Change of a part in every row.
+    fn of(&self, part: usize) -> Vec<f64> {
+        let mut changed = self.change.parts[part].clone();
+        for (per, moved) in self.change.per.iter().zip(&self.moved).filter(|(_, moved)| **moved != 0.0) {
+            add(&mut changed, &per.parts[part], *moved);
+        }
+        if let Some(per_tail) = self.change.per_tail.as_ref().filter(|_| self.tail != 0.0) {
+            add(&mut changed, &per_tail[part], self.tail);
+        }
+        changed
     }
 }
 
@@ -29,6 +37,8 @@ pub(super) enum Kind {
     Path,
     /// it weighs the turns otherwise, or lets the coil go: what the constants do to the temperatures alone is a gain on it, and it on that
     Beside,
+    /// it says itself what constants do to it
+    Apart,
     Other,
 }
 
@@ -46,7 +56,12 @@ pub(super) fn together(nominal: &Parts, without: &Recalibrated, by_heat: Option<
             paths.fold(1.0, |gain, (_, acting)| gain * (1.0 + acting.gain[p]))
         };
         let (all_paths, of_constants) = (of_paths(None), without.gain[p]);
-        let of_others = 1.0 + changes.iter().filter(|acting| acting.kind != Kind::Path).map(|acting| acting.gain[p]).sum::<f64>();
+        let of_others = 1.0
+            + changes
+                .iter()
+                .filter(|acting| ![Kind::Path, Kind::Apart].contains(&acting.kind))
+                .map(|acting| acting.gain[p])
+                .sum::<f64>();
         part.iter_mut().zip(&without.of_tails[p]).for_each(|(rate, of_tails)| *rate = all_paths * (*rate + of_tails));
         for (k, acting) in changes.iter().enumerate() {
             let own = acting.gain[p];
@@ -54,7 +69,12 @@ pub(super) fn together(nominal: &Parts, without: &Recalibrated, by_heat: Option<
                 Some(by_heat) if acting.kind == Kind::Beside => (&by_heat.parts[p], by_heat.gain[p]),
                 _ => (&without.parts[p], of_constants),
             };
-            let changed = (0..part.len()).map(|row| acting.of(p, row));
+            let changed = acting.of(p);
+            if acting.kind == Kind::Apart {
+                // the chamber's thermometer says nothing of it
+                add(part, &changed, all_paths * without.factors[p] / without.factors[1]);
+                continue;
+            }
             let rows = part.iter_mut().zip(changed).zip(nominal[p].iter().zip(moved));
             if acting.kind == Kind::Path {
                 let beyond = of_constants * of_paths(Some(k)) * of_others;
@@ -94,7 +114,7 @@ mod tests {
     }
 
     fn acting(change: &Change, gain: f64, is_path: bool) -> Acting<'_> {
-        Acting { change, gain: [gain; 3], kind: if is_path { Kind::Path } else { Kind::Other }, moved: Vec::new() }
+        Acting { change, gain: [gain; 3], kind: if is_path { Kind::Path } else { Kind::Other }, moved: Vec::new(), tail: 0.0 }
     }
 
     fn first(changes: &[Acting], without: &Recalibrated) -> Vec<f64> {
@@ -148,7 +168,7 @@ mod tests {
         let (more, large) = (change(NOMINAL.map(|x| 0.7 * x)), change([0.3, 0.1, -0.2, 0.7]));
         let by_heat = ByHeat { parts: parts(NOMINAL.map(|x| 2.0 * x)), gain: [2.0; 3] };
         let without = at(NOMINAL.map(|x| 2.5 * x), 2.5);
-        let winding = |change, gain| Acting { change, gain: [gain; 3], kind: Kind::Beside, moved: Vec::new() };
+        let winding = |change, gain| Acting { change, gain: [gain; 3], kind: Kind::Beside, moved: Vec::new(), tail: 0.0 };
         let [first, ..] = together(&parts(NOMINAL), &without, Some(&by_heat), &[winding(&more, 0.7), winding(&large, 0.2)]);
         let sum: Vec<f64> = NOMINAL.iter().zip(&large.parts[0]).map(|(n, l)| (2.5 + 1.4) * n + 2.0 * l).collect();
         near(&first, &sum);
