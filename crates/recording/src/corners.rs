@@ -62,4 +62,17 @@ mod tests {
         let found = corners(&time, &(0..40).map(value).collect::<Vec<_>>());
         assert!(found.len() == 1 && (found[0].1 - 1e9 - 19.5).abs() < 1e-5, "{found:?}");
     }
+
+    /// A value that is off turns the line if it is among the ten beside the missing ones.
+    #[test]
+    fn exact_the_tenth_value_on_either_side_counts() {
+        let time: Vec<f64> = (0..40).map(f64::from).collect();
+        let meet = |off: Option<u32>| {
+            let course = |n: u32| f64::from(n).min(19.5) + if off == Some(n) { 1.0 } else { 0.0 };
+            let values: Vec<f64> = (0..40).map(|n| if (15..25).contains(&n) { f64::NAN } else { course(n) }).collect();
+            corners(&time, &values)[0].1
+        };
+        let is_turned = |row: u32| (meet(Some(row)) - meet(None)).abs() > 0.1;
+        assert_eq!([4, 5, 34, 35].map(is_turned), [false, true, true, false]);
+    }
 }
