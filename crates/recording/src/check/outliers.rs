@@ -265,7 +265,7 @@ mod tests {
         assert_eq!([-8.0, -7.5].map(|first| found(&nothing_but(&[(0, first), (1, -20.0)]), [1.0, 0.0])), [vec![], vec![1]]);
     }
 
-    /// A step in time of a clock that counts from 1970, on a ramp.
+    /// By a clock that counts from 1970, too.
     #[test]
     fn exact_an_outlier_on_a_ramp_is_found_wherever_time_begins() {
         for start in [0.0, 1.7e9] {
