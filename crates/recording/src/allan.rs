@@ -191,4 +191,14 @@ mod tests {
         // printed by Riley, NIST SP 1065: 1000 frequencies, m = 10, white noise
         assert!((freedom(10.0, 981.0, -0.5) - 146.177).abs() < 5e-4);
     }
+
+    #[test]
+    fn exact_between_two_noises_a_slope_names_the_one_that_falls_less() {
+        for m in [1.0, 5.0] {
+            for (between, less) in [(-0.75, -0.5), (-0.25, 0.0), (0.25, 0.5)] {
+                assert_eq!(freedom(m, 190.0, between), freedom(m, 190.0, less), "{m} {between}");
+                assert_ne!(freedom(m, 190.0, between), freedom(m, 190.0, between - 0.25), "{m} {between}");
+            }
+        }
+    }
 }

@@ -43,4 +43,36 @@ mod tests {
         // one value is no line
         assert!(corners(&[0.0, 1.0, 2.0], &[1.0, f64::NAN, 3.0])[0].1.is_nan());
     }
+
+    /// Ten values on either side, beyond which the course turns.
+    #[test]
+    fn exact_ten_values_on_either_side_make_the_lines() {
+        let time: Vec<f64> = (0..60).map(f64::from).collect();
+        let course = |t: f64| if (14.0..=44.0).contains(&t) { 5.0 + 2.0 * t.min(27.5) } else { 300.0 - t * t };
+        let value = |t: &f64| if (24.0..35.0).contains(t) { f64::NAN } else { course(*t) };
+        let found = corners(&time, &time.iter().map(value).collect::<Vec<_>>());
+        assert!(found.len() == 1 && (found[0].1 - 27.5).abs() < 1e-9, "{found:?}");
+    }
+
+    /// A clock that counts from 1970, temperatures in kelvin.
+    #[test]
+    fn exact_lines_meet_wherever_time_begins() {
+        let time: Vec<f64> = (0..40).map(|n| 1e9 + f64::from(n)).collect();
+        let value = |n: u32| if (15..25).contains(&n) { f64::NAN } else { 293.37 + 0.171 * (f64::from(n)).min(19.5) };
+        let found = corners(&time, &(0..40).map(value).collect::<Vec<_>>());
+        assert!(found.len() == 1 && (found[0].1 - 1e9 - 19.5).abs() < 1e-5, "{found:?}");
+    }
+
+    /// A value that is off turns the line if it is among the ten beside the missing ones.
+    #[test]
+    fn exact_the_tenth_value_on_either_side_counts() {
+        let time: Vec<f64> = (0..40).map(f64::from).collect();
+        let meet = |off: Option<u32>| {
+            let course = |n: u32| f64::from(n).min(19.5) + if off == Some(n) { 1.0 } else { 0.0 };
+            let values: Vec<f64> = (0..40).map(|n| if (15..25).contains(&n) { f64::NAN } else { course(n) }).collect();
+            corners(&time, &values)[0].1
+        };
+        let is_turned = |row: u32| (meet(Some(row)) - meet(None)).abs() > 0.1;
+        assert_eq!([4, 5, 34, 35].map(is_turned), [false, true, true, false]);
+    }
 }

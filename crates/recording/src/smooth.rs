@@ -387,6 +387,21 @@ mod tests {
         }
     }
 
+    /// Lines that meet behind the missing values, before them and nowhere, and a lag that takes the corner out of them.
+    #[test]
+    fn exact_a_corner_is_sought_among_missing_values_alone() {
+        let time: Vec<f64> = (0..60).map(f64::from).collect();
+        let weights = |meet: f64, lag: f64| {
+            let behind = |n: f64| if n < 25.0 { 0.0 } else { n - meet };
+            let values: Vec<f64> = (0..60).map(|n| if (20..30).contains(&n) { f64::NAN } else { behind(f64::from(n)) }).collect();
+            cornered(&time, &values, lag)
+        };
+        let (within, corner) = (weights(24.5, 0.0).expect("a corner"), |n: usize| if n == 24 { CORNER } else { STRAIGHT });
+        assert!((0..59).all(|n| within[n] == if (19..30).contains(&n) { corner(n) } else { 1.0 }), "{within:?}");
+        assert_eq!(weights(28.5, 4.0), Some(within));
+        assert_eq!([weights(10.5, 0.0), weights(40.5, 0.0), weights(24.5, 9.0)], [None, None, None]);
+    }
+
     #[test]
     fn new_weights_are_never_less_likely() {
         let (_, course) = programme(120.0);

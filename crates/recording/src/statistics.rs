@@ -152,6 +152,7 @@ mod tests {
     fn an_alternation_is_not_white() {
         let alternating: Vec<f64> = (0..100_i32).map(|i| f64::from(i % 2)).collect();
         assert!(whiteness(&alternating, 5).is_some_and(|p| p < 1e-12));
+        assert!(whiteness(&alternating[..7], 5).is_some_and(|p| p < 0.2));
         assert_eq!([whiteness(&[0.0; 50], 5), whiteness(&alternating[..6], 5), whiteness(&alternating, 0)], [None; 3]);
     }
 }

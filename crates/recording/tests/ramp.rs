@@ -349,6 +349,20 @@ fn a_unit_that_is_seen_to_settle_is_told() {
     assert!(span.value < 2.576 * span.sd, "{span:?}");
 }
 
+/// A slow part of a thirtieth beside a bias of 20 over the seat's temperatures: what longer time constants change of that is little, and it is told far better
+/// than by the sets of halves, to a fiftieth.
+#[test]
+fn a_bias_at_rest_is_told_beside_a_slow_part() {
+    let (lags, amounts) = ([400.0, 3000.0], [-167.0, 5.0]);
+    let unit = Unit { lags, heating: amounts, cooling: amounts, rest: [0.0; 2], hysteresis: 0.0 };
+    let mut record = Record::of(&unit, UP_AND_DOWN, &NoiseModel::white(0.0005, 60.0), 0.0, 1);
+    let behind = lagging(&record.time, &record.temperature, 400.0);
+    let seat: Vec<f64> = record.temperature.iter().zip(behind).map(|(t, behind)| t - behind).collect();
+    record.values.iter_mut().zip(&seat).for_each(|(value, seat)| *value += 0.2 * seat);
+    let span = record.respond_over(&seat).unwrap().span.unwrap();
+    assert!((span.value - 20.0).abs() < 2.576 * span.sd && span.sd < 0.1, "{span:?}");
+}
+
 #[test]
 #[ignore = "a minute"]
 fn hysteresis_needs_rests_at_one_temperature() {

@@ -97,3 +97,24 @@ fn missing(time: &[f64], present: &[bool], useless: Severity, findings: &mut Vec
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Stairs of one step in every few rows: of three the resolution is three times the noise that their differences show.
+    #[test]
+    fn exact_a_resolution_above_three_standard_deviations_hides_the_noise() {
+        let steps = |rows: usize| {
+            let time: Vec<f64> = (0..20 * rows + 2).map(|n| n as f64).collect();
+            let values = (0..time.len()).map(|n| (n / rows) as f64).collect();
+            let channel = Channel { name: "air".into(), unit: "degC".into(), values, sampling: Sampling::Momentary };
+            let instants = Instants::new(&time);
+            let judged = judge(&time, &channel, (&Expectation::default(), &Clock::default()), instants.as_ref());
+            judged.findings.into_iter().map(|finding| finding.kind).collect::<Vec<_>>()
+        };
+        assert_eq!(steps(3), []);
+        let [FindingKind::Quantised { step, noise }] = steps(4)[..] else { panic!("{:?}", steps(4)) };
+        assert!(step == 1.0 && (noise - 12.0_f64.sqrt().recip()).abs() < 1e-15, "{step} {noise}");
+    }
+}

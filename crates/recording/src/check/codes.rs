@@ -52,4 +52,22 @@ mod tests {
         assert_eq!(of([1.0, -12.0, 12.0, 11.0]), told(-12.0));
         assert_eq!(of([1.0, 10.0, 9.0, -9.0]), told(10.0));
     }
+
+    /// Values that are found among ten rows between 0 and 1, where −1 to 2 is not far from what is plausible.
+    fn found(codes: &[f64]) -> Option<usize> {
+        let expectation = Expectation { values: [0.0, 1.0], ..Expectation::default() };
+        let mut values = [0.5; 10];
+        values[2..2 + codes.len()].copy_from_slice(codes);
+        judge(&[0.0; 10], &values, &expectation, &mut [true; 10]).map(|finding| finding.rows)
+    }
+
+    #[test]
+    fn exact_codes_are_less_than_half_of_the_values() {
+        assert_eq!([4, 5].map(|rows| found(&[9.0; 5][..rows])), [Some(4), None]);
+    }
+
+    #[test]
+    fn exact_what_does_not_repeat_is_no_code() {
+        assert_eq!([found(&[5.0, 7.0]), found(&[5.0, 7.0, 5.0]), found(&[5.0, -5.0])], [None, Some(2), Some(2)]);
+    }
 }

@@ -89,6 +89,9 @@ mod tests {
             let candidates = vec!["6 s".into(), "half a minute".into()];
             assert_eq!(found.kind, FindingKind::TooFast { rate: 3.0, limit: 0.5, candidates, key: "time".into() });
             assert_eq!(found.span, Some([start, start + 20.0]));
+            // as fast as it can be
+            let values: Vec<f64> = (0..=100).map(|n| 0.5 * f64::from(n)).collect();
+            assert_eq!(judge(&Context { values: &values, ..context }, &[true; 101], &clock), None);
         }
     }
 }

@@ -103,4 +103,14 @@ mod tests {
         };
         assert_eq!([9, 10, 11].map(rows), [None, Some(5.0), Some(5.0)]);
     }
+
+    #[test]
+    fn exact_one_of_twenty_runs_may_be_a_single_row() {
+        let rows = |single: usize| {
+            let lengths = (0..22).map(|n| if (5..5 + single).contains(&n) { 1 } else { 5 });
+            let values: Vec<f64> = lengths.enumerate().flat_map(|(n, rows)| vec![0.1 * ((7 * n) % 31) as f64; rows]).collect();
+            held(&values, &vec![true; values.len()], 100.0).map(|held| held.rows)
+        };
+        assert_eq!([0, 1, 2].map(rows), [Some(5.0), Some(4.8), None]);
+    }
 }

@@ -138,3 +138,56 @@ fn same(recording: &Recording, row: usize, other: usize) -> bool {
         a == b || (a.is_nan() && b.is_nan())
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const INTERVAL: f64 = 10.0;
+
+    /// Findings of instants \[s\] whose usual interval is 10 s.
+    fn found(time: &[f64], largest_jitter: f64) -> Vec<FindingKind> {
+        let instants = Instants { interval: INTERVAL, span: 0.0, jitter: largest_jitter, largest_jitter, gaps: Vec::new() };
+        let mut findings = Vec::new();
+        instants.judge(time, &mut findings);
+        findings.into_iter().map(|finding| finding.kind).collect()
+    }
+
+    /// Of two rows so far apart.
+    fn steps(interval: f64, largest_jitter: f64) -> bool {
+        found(&[100.0, 100.0 + interval], largest_jitter).contains(&FindingKind::ClockStep(interval))
+    }
+
+    #[test]
+    fn exact_jitter_is_noted_beyond_a_thousandth_of_an_interval() {
+        let jitter = FindingKind::Jitter { rms: 0.0101, largest: 0.0101 };
+        assert_eq!([0.01, 0.0101].map(|jitter| found(&[0.0, INTERVAL], jitter)), [vec![], vec![jitter]]);
+    }
+
+    #[test]
+    fn exact_a_clock_step_is_off_by_more_than_a_tenth_of_an_interval() {
+        assert_eq!([0.0, 1.0, 1.25].map(|off| steps(INTERVAL + off, 0.0)), [false, false, true]);
+        assert_eq!([0.0, 1.0, 1.25].map(|off| steps(2.0 * INTERVAL - off, 0.0)), [false, false, true]);
+    }
+
+    #[test]
+    fn exact_a_clock_step_is_off_by_more_than_four_jitters() {
+        assert_eq!([1.0, 1.25].map(|off| steps(INTERVAL + off, 0.125)), [false, true]);
+        assert_eq!([2.0, 2.25].map(|off| steps(INTERVAL + off, 0.5)), [false, true]);
+    }
+
+    #[test]
+    fn exact_less_than_half_an_interval_is_a_clock_step_however_large_the_jitter() {
+        assert_eq!([4.0, 4.75, 5.0, 6.0, INTERVAL].map(|interval| steps(interval, 2.0)), [true, true, false, false, false]);
+    }
+
+    #[test]
+    fn exact_a_recording_lasts_from_the_least_to_the_most() {
+        let clock = Clock { span: [60.0, 3600.0], ..Clock::default() };
+        let is_found = |span: f64| {
+            let instants = Instants { interval: 1.0, span, jitter: 0.0, largest_jitter: 0.0, gaps: Vec::new() };
+            [false, true].map(|many| instants.judge_span(many, &clock).is_some())
+        };
+        assert_eq!([59.0, 60.0, 3600.0, 3601.0].map(is_found), [[false, true], [false; 2], [false; 2], [true; 2]]);
+    }
+}

@@ -152,3 +152,144 @@ fn median_slope(Context { time, values, .. }: &Context, rows: &[usize]) -> Optio
     let pairs = rows.iter().enumerate().flat_map(|(k, a)| rows[k + 1..].iter().map(move |b| (*a, *b)));
     median(pairs.map(|(a, b)| (values[b] - values[a]) / (time[b] - time[a])).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::{ChannelSummary, Expectation};
+
+    /// Noise of one, and values of which a plausible one is within 10.
+    fn judged<T>(time: &[f64], values: &[f64], [noise, step]: [f64; 2], of: impl Fn(&Context) -> T) -> T {
+        let summary = ChannelSummary {
+            name: "rate".into(),
+            unit: "deg/h".into(),
+            present: values.len(),
+            used: values.len(),
+            least: f64::NAN,
+            median: 0.0,
+            largest: f64::NAN,
+            noise: Some(noise),
+            step: (step > 0.0).then_some(step),
+        };
+        let expectation = Expectation { values: [-10.0, 10.0], essential: true, ..Expectation::default() };
+        of(&Context { time, values, summary: &summary, interval: 1.0, expectation: &expectation })
+    }
+
+    fn even(rows: usize) -> Vec<f64> {
+        (0..rows).map(|n| n as f64).collect()
+    }
+
+    /// Rows that are found, their instants being given.
+    fn found_at(time: &[f64], values: &[f64], noise: [f64; 2]) -> Vec<usize> {
+        judged(time, values, noise, |context| {
+            let mut mask = vec![true; values.len()];
+            let found = lone_values(context, &mut mask).expect("noise");
+            let rows: Vec<usize> = (0..values.len()).filter(|&row| !mask[row]).collect();
+            assert_eq!(found.len(), rows.len());
+            rows
+        })
+    }
+
+    /// The same of rows one interval apart.
+    fn found(values: &[f64], noise: [f64; 2]) -> Vec<usize> {
+        found_at(&even(values.len()), values, noise)
+    }
+
+    /// Fifteen values of nothing but for some.
+    fn nothing_but(values: &[(usize, f64)]) -> Vec<f64> {
+        let mut all = vec![0.0; 15];
+        values.iter().for_each(|&(row, value)| all[row] = value);
+        all
+    }
+
+    /// Distance of the value in the fourth row of seven from the others.
+    fn in_the_middle_of(values: &[f64; 7]) -> Option<f64> {
+        let used: Vec<usize> = (0..7).collect();
+        judged(&even(7), values, [1.0, 0.0], |context| lone(context, &used, 3, 1, 1.0))
+    }
+
+    const NONE: [usize; 0] = [];
+
+    #[test]
+    fn exact_a_lone_value_is_six_and_a_half_standard_deviations_off_and_more() {
+        let found = [6.5, 6.75, -6.75].map(|value| in_the_middle_of(&[0.0, 0.0, 0.0, value, 0.0, 0.0, 0.0]));
+        assert_eq!(found, [None, Some(6.75), Some(6.75)]);
+    }
+
+    #[test]
+    fn exact_half_a_step_of_the_resolution_is_its_least_noise() {
+        let is_found = |value: f64| found(&nothing_but(&[(7, value)]), [1e-3, 2.0]);
+        assert_eq!([6.5, 6.75].map(is_found), [vec![], vec![7]]);
+    }
+
+    #[test]
+    fn exact_a_lone_value_keeps_three_fifths_of_its_distance_to_the_next_one() {
+        // the last three rows reach 8 at the value's instant
+        assert_eq!(in_the_middle_of(&[0.0, 0.0, 0.0, 20.0, 8.0, 0.0, 8.0]), None);
+        assert_eq!(in_the_middle_of(&[0.0, 0.0, 0.0, 20.0, 7.5, 0.0, 7.5]), Some(20.0));
+    }
+
+    #[test]
+    fn exact_neighbours_differ_by_less_than_half_of_the_distance() {
+        let among = |by: f64| in_the_middle_of(&[-by, by, 0.0, 20.0, 0.0, by, -by]);
+        assert_eq!([5.0, 4.75].map(among), [None, Some(20.0)]);
+    }
+
+    #[test]
+    fn exact_three_wrong_rows_before_the_last_two_are_found() {
+        assert_eq!(found(&nothing_but(&[(10, 20.0), (11, 20.0), (12, 20.0)]), [1.0, 0.0]), [10, 11, 12]);
+    }
+
+    /// A row of 8 has to be farther off where it has no two neighbours behind it: those within four and a half intervals.
+    #[test]
+    fn exact_beside_a_gap_a_value_is_judged_by_one_side() {
+        let beside = |gap: f64, value: f64| {
+            let time: Vec<f64> = (0..15).map(|n| f64::from(n) + if n > 7 { gap - 1.0 } else { 0.0 }).collect();
+            found_at(&time, &nothing_but(&[(7, value)]), [1.0, 0.0])
+        };
+        assert_eq!([3.25, 3.5, 4.0].map(|gap| beside(gap, 8.0)), [vec![7], vec![], vec![]]);
+        assert_eq!([3.25, 3.5, 4.0].map(|gap| beside(gap, 12.0)), [[7]; 3]);
+    }
+
+    #[test]
+    fn exact_the_first_row_is_eleven_standard_deviations_off_and_more() {
+        assert_eq!([11.0, 11.5].map(|value| found(&nothing_but(&[(0, value)]), [1.0, 0.0])), [vec![], vec![0]]);
+        assert_eq!([11.0, 11.5].map(|value| found(&nothing_but(&[(14, value)]), [1.0, 0.0])), [vec![], vec![14]]);
+        // and ten changes of those beside it
+        assert_eq!([10.0, 10.5].map(|value| found(&nothing_but(&[(0, value), (5, 1.0)]), [0.5, 0.0])), [vec![], vec![0]]);
+    }
+
+    #[test]
+    fn exact_the_second_row_is_off_from_the_first_one_too() {
+        assert_eq!([8.0, 7.5].map(|first| found(&nothing_but(&[(0, first), (1, 20.0)]), [1.0, 0.0])), [vec![], vec![1]]);
+        assert_eq!([-8.0, -7.5].map(|first| found(&nothing_but(&[(0, first), (1, -20.0)]), [1.0, 0.0])), [vec![], vec![1]]);
+    }
+
+    /// By a clock that counts from 1970, too.
+    #[test]
+    fn exact_an_outlier_on_a_ramp_is_found_wherever_time_begins() {
+        for start in [0.0, 1.7e9] {
+            let time: Vec<f64> = (0..15).map(|n| start + f64::from(n)).collect();
+            let ramp: Vec<f64> = (0..15).map(|n| f64::from(n) + if n == 7 { 1e-7 } else { 0.0 }).collect();
+            assert_eq!(found_at(&time, &ramp, [1e-8, 0.0]), [7], "{start}");
+            assert_eq!(found_at(&time, &ramp, [1e-7, 0.0]), NONE, "{start}");
+        }
+    }
+
+    #[test]
+    fn exact_more_than_three_implausible_values_are_a_motion() {
+        let is_moving = |rows: usize, is_essential: bool, median: f64| {
+            let values: Vec<f64> = (0..15).map(|n| if n < rows { 11.0 } else { 0.0 }).collect();
+            judged(&even(15), &values, [1.0, 0.0], |context| {
+                let expectation = Expectation { essential: is_essential, ..context.expectation.clone() };
+                let summary = ChannelSummary { median, ..context.summary.clone() };
+                let mut mask = vec![true; 15];
+                let found = moving(&Context { expectation: &expectation, summary: &summary, ..*context }, &[true; 15], &mut mask);
+                found.map(|finding| (finding.rows, mask.iter().filter(|used| !**used).count()))
+            })
+        };
+        assert_eq!([0, 3, 4].map(|rows| is_moving(rows, true, 0.0)), [None, None, Some((4, 4))]);
+        // of another unit most values are implausible; a channel that may stand at anything does not move
+        assert_eq!([is_moving(4, false, 0.0), is_moving(4, true, 11.0), is_moving(3, true, 11.0)], [None; 3]);
+    }
+}

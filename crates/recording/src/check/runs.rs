@@ -122,3 +122,118 @@ fn unlikely(length: usize, rows: usize, noise: f64, step: f64) -> bool {
     let meets = (step / (2.0 * std::f64::consts::PI.sqrt() * noise)).min(0.9);
     rows as f64 * meets.powf(length as f64 - 1.0) < CHANCE
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::{ChannelSummary, Expectation};
+
+    /// Runs that are found: first row, length and whether they are masked.
+    fn found(values: &[f64], noise: Option<f64>, step: Option<f64>) -> Vec<(f64, usize, Repair)> {
+        let time: Vec<f64> = (0..values.len()).map(|n| n as f64).collect();
+        let summary = ChannelSummary {
+            name: "air".into(),
+            unit: "degC".into(),
+            present: values.len(),
+            used: values.len(),
+            least: f64::NAN,
+            median: f64::NAN,
+            largest: f64::NAN,
+            noise,
+            step,
+        };
+        let expectation = Expectation::default();
+        let context = Context { time: &time, values, summary: &summary, interval: 1.0, expectation: &expectation };
+        let findings = judge(&context, &mut vec![true; values.len()]);
+        findings.iter().map(|finding| (finding.span.expect("a span")[0], finding.rows, finding.repair)).collect()
+    }
+
+    /// Noise that goes to and fro between 0 and 1.
+    fn to_and_fro(rows: usize) -> Vec<f64> {
+        (0..rows).map(|n| (n % 2) as f64).collect()
+    }
+
+    /// Of second differences that are 2 and −2 by turns.
+    fn noise_to_and_fro() -> f64 {
+        (4.0 / OPPOSITE).sqrt()
+    }
+
+    #[test]
+    fn exact_five_values_or_sixteen_changes_tell_a_resolution() {
+        assert_eq!([4, 5].map(|count| step(&[7.25, 8.25, 9.25, 10.25, 11.25][..count])), [None, Some(1.0)]);
+        assert_eq!([16, 17].map(|rows| step(&to_and_fro(rows))), [None, Some(1.0)]);
+    }
+
+    #[test]
+    fn exact_one_and_a_half_of_the_least_difference_are_two_steps() {
+        assert_eq!(step(&[0.0, 1.5, 2.5, 4.0, 5.5]), Some(5.5 / 7.0));
+        assert_eq!(step(&[0.0, 1.4375, 2.4375, 3.875, 5.3125]), Some(5.3125 / 4.0));
+    }
+
+    #[test]
+    fn exact_a_ten_billionth_of_the_largest_value_is_rounding() {
+        let up_to = |largest: f64| step(&[4.0, 3.0, 2.0, 1.0, 0.0].map(|below| largest - below));
+        assert_eq!([1e10, 0.5e10, -0.5e10 + 4.0].map(up_to), [None, Some(1.0), Some(1.0)]);
+    }
+
+    #[test]
+    fn exact_eight_equal_values_are_a_run() {
+        let run = |rows: usize| found(&[to_and_fro(30), vec![0.5; rows], to_and_fro(30)].concat(), Some(1.0), None);
+        assert_eq!([7, 8].map(run), [vec![], vec![(30.0, 8, Repair::Masked)]]);
+    }
+
+    #[test]
+    fn a_long_rest_of_a_course_without_noise_is_sound() {
+        let slope = |n: usize| n as f64 / 3.0;
+        let course: Vec<f64> = (0..500).map(|n| slope(n.min(100)) + slope(n.saturating_sub(400))).collect();
+        assert_eq!([None, Some(0.0)].map(|noise| found(&course, noise, None)), [vec![], vec![]]);
+    }
+
+    /// The noise that is measured is a step over the root of twelve, less a little.
+    #[test]
+    fn exact_a_run_of_a_coarse_channel_is_the_resolution_s() {
+        let coarse = [to_and_fro(60), vec![2.0; 100], to_and_fro(60)].concat();
+        assert_eq!([0.28, 1.0].map(|noise| found(&coarse, Some(noise), Some(1.0)).len()), [0, 1]);
+    }
+
+    #[test]
+    fn where_a_course_comes_to_rest_without_noise_noise_behind_it_is_not_its_own() {
+        let ramp: Vec<f64> = (0..40).map(|n| 0.25 * f64::from(n)).collect();
+        let noise: Vec<f64> = to_and_fro(60).iter().map(|value| 10.0 + 0.125 * value).collect();
+        let course = [ramp, vec![10.0; 20], noise[1..].to_vec()].concat();
+        assert_eq!(found(&course, Some(0.1), None), []);
+    }
+
+    #[test]
+    fn exact_the_noise_beside_a_run_is_that_of_the_quieter_side() {
+        let beside = |before: &[f64], after: &[f64]| {
+            let values = [before, &[0.5; 10], after].concat();
+            noise_beside(&values, &(0..values.len()).collect::<Vec<_>>(), before.len()..before.len() + 10)
+        };
+        let (all, half) = (to_and_fro(40), to_and_fro(40).iter().map(|value| 0.5 * value).collect::<Vec<_>>());
+        let noise = noise_to_and_fro();
+        // of half the size 0.5 itself is left out
+        let quiet: Vec<f64> = half.iter().map(|value| value + 0.125).collect();
+        assert_eq!([beside(&all, &all), beside(&quiet, &all), beside(&all, &quiet)], [noise, noise / 2.0, noise / 2.0]);
+        // fewer than twelve rows tell nothing
+        assert_eq!([beside(&[], &all), beside(&all, &[]), beside(&[], &[])], [noise, noise, 0.0]);
+        assert_eq!([11, 12].map(|rows| beside(&quiet[..rows], &all)), [noise, noise / 2.0]);
+    }
+
+    #[test]
+    fn exact_a_jump_is_more_than_five_steps_and_five_changes_behind_it() {
+        let is_jump = |first: f64, next: f64, step: f64| jumps(&[0.0, first, next], &[0, 1, 2], 1, step);
+        assert_eq!([5.0, 5.5].map(|first| is_jump(first, first, 1.0)), [false, true]);
+        assert_eq!([5.0, 5.5].map(|first| is_jump(-first, -first - 1.0, 0.0)), [false, true]);
+        assert!(!jumps(&[0.0, 9.0], &[0, 1], 1, 1.0));
+    }
+
+    /// Each value meets the one before in one of ten cases.
+    #[test]
+    fn exact_a_run_of_chance_is_in_no_more_than_a_millionth_of_recordings() {
+        let noise = 4.0;
+        let step = 0.1 * 2.0 * std::f64::consts::PI.sqrt() * noise;
+        assert_eq!([8, 9, 10].map(|length| unlikely(length, 200, noise, step)), [false, false, true]);
+        assert_eq!([8, 9, 10].map(|length| unlikely(length, 50, noise, step)), [false, true, true]);
+    }
+}

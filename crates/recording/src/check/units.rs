@@ -69,20 +69,23 @@ pub(super) fn judge(summary: &ChannelSummary, course: &Course, expectation: &Exp
 mod tests {
     use super::*;
 
-    /// Findings of a rate from −`size` to `size` with a median and noise.
-    fn of(size: f64, median: f64, noise: f64, expectation: &Expectation) -> Vec<Finding> {
-        let summary = ChannelSummary {
+    fn summary(median: f64, noise: f64, step: Option<f64>) -> ChannelSummary {
+        ChannelSummary {
             name: "rate".into(),
             unit: "deg/h".into(),
             present: 1000,
             used: 1000,
-            least: -size,
+            least: f64::NAN,
             median,
-            largest: size,
+            largest: f64::NAN,
             noise: Some(noise),
-            step: None,
-        };
-        judge(&summary, &Course { extremes: [-size, size], start: 0.0 }, expectation)
+            step,
+        }
+    }
+
+    /// Findings of a rate from −`size` to `size` with a median and noise.
+    fn of(size: f64, median: f64, noise: f64, expectation: &Expectation) -> Vec<Finding> {
+        judge(&summary(median, noise, None), &Course { extremes: [-size, size], start: 0.0 }, expectation)
     }
 
     #[test]
@@ -105,5 +108,30 @@ mod tests {
         let found = medians.map(|median| explained(15.0, median));
         assert_eq!(found, [none, none, no, no, none, none, no, no, yes, yes, yes, no]);
         assert_eq!([-13.0, -12.0, -0.5, 0.75, 12.0, 13.0].map(|median| explained(0.0, median)), [no, yes, none, yes, yes, no]);
+    }
+
+    #[test]
+    fn exact_noise_is_judged_where_three_of_it_exceed_the_resolution() {
+        let expectation = Expectation { noise: [1.0, 10.0], ..Expectation::default() };
+        let is_quiet = |noise: f64, step: Option<f64>| {
+            let found = judge(&summary(0.0, noise, step), &Course { extremes: [-20.0, 20.0], start: 0.0 }, &expectation);
+            found.iter().any(|finding| matches!(finding.kind, FindingKind::Unit { what: "noise", .. }))
+        };
+        assert_eq!([None, Some(1.25), Some(1.5), Some(2.0)].map(|step| is_quiet(0.5, step)), [true, true, false, false]);
+        assert_eq!([0.0, 0.5, 1.0].map(|noise| is_quiet(noise, None)), [false, true, false]);
+    }
+
+    /// A room at 70, which is 25 in a unit of half the size that begins at −10.
+    #[test]
+    fn exact_a_start_is_suspected_where_another_unit_makes_it_a_room_s() {
+        let half = Unit { name: "half".into(), scale: 0.5, offset: -10.0 };
+        let expectation = Expectation { start: [15.0, 30.0], mistaken: vec![half], key: "air".into(), ..Expectation::default() };
+        let start = |start: f64| {
+            let found = judge(&summary(50.0, 1.0, None), &Course { extremes: [0.0, 100.0], start }, &expectation);
+            found.into_iter().map(|finding| finding.kind).next()
+        };
+        let suspected = |found: f64| Some(FindingKind::Start { found, candidate: "half".into(), key: "air".into() });
+        assert_eq!([49.0, 50.0, 70.0, 80.0, 81.0].map(start), [None, suspected(50.0), suspected(70.0), suspected(80.0), None]);
+        assert_eq!([20.0, 30.0].map(start), [None, None]);
     }
 }

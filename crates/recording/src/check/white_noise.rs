@@ -69,12 +69,32 @@ mod tests {
     #[test]
     fn noise_of_a_coarsely_resolved_channel_is_not_what_arithmetic_leaves() {
         let time: Vec<f64> = (0..400).map(f64::from).collect();
-        // a step of the last digit in every twentieth row
-        let values: Vec<f64> = (0..400).map(|n| 20.3 + if n % 20 == 7 { 0.1 } else { 0.0 } + 1e-15 * f64::from(n % 3)).collect();
-        let noise = white_noise(&time, &values, &vec![true; 400]).unwrap();
-        assert!((0.01..0.05).contains(&noise), "{noise:e}");
+        for size in [1.0, 1e6] {
+            // a step of the last digit in every twentieth row
+            let value = |n: i32| 20.3 * size + if n % 20 == 7 { 0.1 } else { 0.0 } + 1e-15 * size * f64::from(n % 3);
+            let values: Vec<f64> = (0..400).map(value).collect();
+            let noise = white_noise(&time, &values, &vec![true; 400]).unwrap();
+            assert!((0.01..0.05).contains(&noise), "{size:e}: {noise:e}");
+        }
         // what is rounded alone has no noise at all
         let still: Vec<f64> = (0..400).map(|n| 20.3 + 4e-15 * f64::from(n % 3)).collect();
         assert!(white_noise(&time, &still, &vec![true; 400]).unwrap() < 1e-13);
+    }
+
+    #[test]
+    fn exact_a_median_as_large_as_rounding_is_none() {
+        let values = [[1.0; 9].as_slice(), &[10.0]].concat();
+        let median = robust_sd([1.0].into_iter(), 0.0).unwrap();
+        let [rounding, noise] = [median, 0.999 * median].map(|rounding| inner_sd(&values, rounding).unwrap());
+        assert!((rounding - 10.9_f64.sqrt()).abs() < 1e-14 && noise == 1.0, "{rounding} {noise}");
+    }
+
+    /// A jump over one and a half intervals, and none.
+    #[test]
+    fn exact_neighbours_of_second_differences_are_within_two_and_a_half_intervals() {
+        let noise =
+            |pause: f64| white_noise(&[0.0, pause, pause + 1.0, pause + 2.0], &[10.0, 0.0, 0.0, 0.0], &[true; 4]).unwrap();
+        assert_eq!(noise(1.5), 0.0);
+        assert!((noise(1.25) - (50.0_f64 / 6.0).sqrt()).abs() < 1e-14, "{}", noise(1.25));
     }
 }

@@ -61,3 +61,26 @@ impl NoiseModel {
 const MOST_ERROR: f64 = 1.0;
 /// Averaging times in an octave at which the floor is sought: the deviation is flat there, and known to 1e-3 of itself.
 const PER_OCTAVE: f64 = 16.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// White noise N and a walk K have the least Allan deviation √(2 N K/√3) at √3 N/K.
+    #[test]
+    fn exact_the_floor_of_white_noise_and_a_walk() {
+        // the least at one of the sixteenths of an octave
+        let tau = 2.0 * (23.0_f64 / 16.0).exp2();
+        let model = NoiseModel { walk: 3.0_f64.sqrt() / tau, ..NoiseModel::white(1.0, 1.0) };
+        let (at, least) = model.floor([2.0, 16.0], 1.0).expect("a floor");
+        assert!((at / tau - 1.0).abs() < 1e-12 && (least / (2.0 / tau).sqrt() - 1.0).abs() < 1e-12, "{at} {least}");
+    }
+
+    #[test]
+    fn what_falls_to_the_longer_end_has_no_floor() {
+        assert_eq!(NoiseModel::white(1.0, 1.0).floor([2.0, 16.0], 1.0), None);
+        // what rises from the shorter end on has it there
+        let walk = NoiseModel { walk: 1.0, ..NoiseModel::white(1e-9, 1.0) };
+        assert_eq!(walk.floor([2.0, 16.0], 1.0).map(|(at, _)| at), Some(2.0));
+    }
+}

@@ -251,3 +251,20 @@ impl Within {
         Self { mean, end, mean_noise, end_noise: -(-2.0 * u).exp_m1(), cross_noise: mean * lost }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Long even stretches cost no more than their rows.
+    #[test]
+    fn the_gains_of_an_even_stretch_settle() {
+        let model = NoiseModel { drift: 0.3, drift_time: 20.0, walk: 0.1, ..NoiseModel::white(1.0, 1.0) };
+        let mut filter = Filter::new(&model);
+        filter.step(None, f64::INFINITY);
+        for _ in 0..2000 {
+            filter.step(Some(1.0), 1.0);
+        }
+        assert!(filter.last.is_some_and(|last| last.settled));
+    }
+}

@@ -150,4 +150,27 @@ mod tests {
         assert_eq!(Absent::OneWay(Direction::Heating).to_string(), "no ramp of the record heats");
         assert_eq!(Absent::OneWay(Direction::Cooling).to_string(), "no ramp of the record cools");
     }
+
+    const WATCH: Watch = Watch { ramp: 600.0, rest: 0.0, settling: 600.0, short: Short::Both };
+
+    #[test]
+    fn a_rest_is_told_where_there_is_one() {
+        assert_eq!(
+            WATCH.to_string(),
+            "time constants are sought up to a third of the longest ramp: the longest ramp lasts about 600 s; record ramps or rests that last longer"
+        );
+        assert_eq!(
+            Watch { rest: 0.6, ..WATCH }.to_string(),
+            "time constants are sought up to a third of the longest ramp: the longest ramp lasts about 600 s, the longest rest 1 s; record ramps or rests that last longer"
+        );
+    }
+
+    /// Longest time constants that are sought by halves: that of a slower seat lies in the middle between two.
+    #[test]
+    fn exact_beside_a_slower_seat_time_constants_are_sought_about_its_own() {
+        let beside = WATCH.beside(Slowest::Of(250.0));
+        assert!((beside.settling / (250.0 * 3.0 * 2.0_f64.sqrt()) - 1.0).abs() < 1e-15, "{beside:?}");
+        assert_eq!(beside.short, Short::Seat);
+        assert_eq!([Slowest::Of(200.0), Slowest::Beyond].map(|slowest| WATCH.beside(slowest)), [WATCH; 2]);
+    }
 }

@@ -92,4 +92,28 @@ mod tests {
         assert_eq!(minima(&[9.0, 5.0, 2.0, 6.0, 1.0, 3.0]), [2, 4]);
         assert_eq!((minima(&[1.0, 1.1, 1.2]), minima(&[3.0, 2.0, 1.0])), (vec![0], vec![2]));
     }
+
+    /// A seat that follows the drive over a ramp with one time constant: it is found between two that are tried, and none farther away than a step.
+    #[test]
+    fn exact_a_time_constant_is_found_within_a_step() {
+        const LAG: f64 = 43.0;
+        let time: Vec<f64> = (0..120).map(|n| 20.0 * f64::from(n)).collect();
+        let drive: Vec<f64> = time.iter().map(|t| 0.01 * (t - 300.0).clamp(0.0, 1000.0)).collect();
+        let behind = lagging(&time, &drive, LAG);
+        let seat: Vec<f64> = drive.iter().zip(&behind).map(|(drive, behind)| drive - behind).collect();
+        let mask = vec![true; time.len()];
+        let [time, drive, seat] = [&time, &drive, &seat].map(Vec::as_slice);
+        let input = &Input { time, values: seat, mask: &mask, drive, reading: [0.0; 2], seat, interval: 20.0, averaging: 20.0 };
+        let found = |steps: f64| lowest(input, LAG * 2.0_f64.powf(steps / f64::from(STEPS))).expect("a minimum");
+        for steps in [-0.9, -0.55, -0.2, 0.0, 0.3, 0.6, 0.95] {
+            let (lag, squares) = found(steps);
+            assert!((lag / LAG - 1.0).abs() < 5e-4, "{steps}: {lag}");
+            assert_eq!(squares, left(input, lag).unwrap());
+        }
+        for (steps, nearest) in [(-3.0, -2.0), (3.0, 2.0)] {
+            let (lag, squares) = found(steps);
+            assert!(((lag / LAG).log2() * f64::from(STEPS) - nearest).abs() < 5e-3, "{steps}: {lag}");
+            assert_eq!(squares, left(input, lag).unwrap());
+        }
+    }
 }
