@@ -46,10 +46,14 @@ fn listed(names: &[&str]) -> String {
 }
 
 fn absent(key: Key) -> Note {
-    if key == Key::Time {
-        return Remark::DeclaredInterval.note("there is no column of instants: the interval that was declared stands for it");
-    }
-    Remark::AbsentColumn.note(format!("there is no column {}; a model can do without it, less surely", key.standard()))
+    let without = match key {
+        Key::Time => {
+            return Remark::DeclaredInterval.note("there is no column of instants: the interval that was declared stands for it");
+        }
+        Key::Spool => "a diagnosis can do without it, less surely",
+        Key::Chamber | Key::Rate => "without it there is no diagnosis",
+    };
+    Remark::AbsentColumn.note(format!("there is no column {}; {without}", key.standard()))
 }
 
 /// Note on a column of instants that is not read but for its gaps, of rows that last `rows` \[s\] by the interval that was declared, and `column` \[s\] by that column, if its
@@ -128,4 +132,15 @@ pub(super) fn interval_note(meta: &Meta, interval: f64) -> Option<Note> {
     let differs = nominal > 0.0 && interval > 0.0 && (interval / nominal - 1.0).abs() > 0.02;
     let message = || format!("the rows are {} s apart, the meta file says {nominal} s", Seconds(interval));
     differs.then(|| Remark::IntervalDiffers.note(message()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_model_does_without_the_spool_alone() {
+        let said = [Key::Chamber, Key::Spool, Key::Rate].map(|key| absent(key).text.contains("without it there is no diagnosis"));
+        assert_eq!(said, [true, false, true]);
+    }
 }

@@ -255,6 +255,8 @@ impl Limits {
             ))
         } else if name == "verdict_probability" && value < least {
             Kept::NotKnown(format!("{name} is {shown}, {}: a small fault may hide beside the verdict", limit.broken()))
+        } else if (least..=most).contains(&value) {
+            Kept::No(format!("{name} is {shown}, an interval that reaches beyond the limits, {least} to {most}"))
         } else {
             Kept::No(format!("{name} is {shown}, {}", limit.broken()))
         }
@@ -393,5 +395,15 @@ mod tests {
             ("not known", true)
         );
         assert_eq!(judged(&limits.replace("Interval", "Value"), measured()), Judged::Passes);
+    }
+
+    #[test]
+    fn a_value_within_limits_whose_interval_is_not_says_so() {
+        let limits = "(limits: {\"bias_span\": Magnitude(0.2)}, judged_by: Interval)";
+        let failed = judged(limits, json!({"bias_span": {"value": 0.144, "ci90": [0.05, 0.2382]}}));
+        let reason = "bias_span is 0.1440 (0.05000 to 0.2382), an interval that reaches beyond the limits, -0.2 to 0.2";
+        assert_eq!(failed.reasons().as_deref(), Some(reason));
+        let failed = judged(limits, json!({"bias_span": {"value": 0.3, "ci90": [0.25, 0.35]}}));
+        assert!(failed.reasons().unwrap().contains("more than 0.2 in magnitude"), "{failed:?}");
     }
 }
