@@ -12,14 +12,13 @@ pub struct Change {
     pub parts: Parts,
     /// What constants add, where it is not as what they add to the nominal bias.
     pub per: Vec<Per>,
-    /// What is added for a CW tail that is longer by a metre, where it is not as that of the nominal bias \[deg/h\]; `None` if it is.
-    pub per_tail: Option<Parts>,
     /// Change of the spool's thermometer \[K\]; `None` if there is none.
     pub thermometer: Option<Vec<f64>>,
     /// Thresholds that the coil passes.
     pub thresholds: Vec<Threshold>,
-    /// Whether it adds to what constants do: these act on it by `per` and `per_tail` alone.
-    pub apart: bool,
+    /// `Some` if it stands apart from the coil's other bias, so that constants act on it by `per` alone, and a CW tail that is longer by a metre by these parts
+    /// \[deg/h\].
+    pub apart: Option<Box<Parts>>,
     /// Change of the rate beside the bias \[deg/h\]; `None` if there is none.
     pub rate: Option<Vec<f64>>,
 }
@@ -61,7 +60,7 @@ impl Change {
 
     /// The bias changes alone.
     pub fn of_parts(parts: Parts) -> Self {
-        Self { parts, thermometer: None, per: Vec::new(), per_tail: None, thresholds: Vec::new(), apart: false, rate: None }
+        Self { parts, thermometer: None, per: Vec::new(), thresholds: Vec::new(), apart: None, rate: None }
     }
 
     /// The rate changes, but no part of the bias.

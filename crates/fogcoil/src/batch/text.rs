@@ -91,8 +91,7 @@ fn judged(batch: &Batch) -> String {
 }
 
 /// Reasons why a unit that breaks no limit has not passed.
-pub(super) const NOT_PASSED: &str =
-    "a figure is missing or too uncertain, a verdict is less probable than its limit, or a record that was held out is not predicted, so they have not passed";
+pub(super) const NOT_PASSED: &str = "a figure is missing or too uncertain, a verdict less probable than its limit, or a held-out record not predicted, so they have not passed";
 
 /// The first units that are judged so, in brackets.
 pub(super) fn named(batch: &Batch, word: &str) -> String {

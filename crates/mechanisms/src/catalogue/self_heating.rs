@@ -58,7 +58,7 @@ pub(super) const SELF_HEATING: Named = Named {
         };
         let per = chain.library().constants.iter().zip(slopes).map(per).collect();
         let thermometer = Some(series.sensor);
-        Ok(Effect::Coil(Change { thermometer, per, per_tail: Some(tail), apart: true, ..Change::of_parts(series.parts) }))
+        Ok(Effect::Coil(Change { thermometer, per, apart: Some(Box::new(tail)), ..Change::of_parts(series.parts) }))
     },
     extended: |design, active| {
         let side = *heatable_flanges(design).get(chosen(active))?;

@@ -318,7 +318,7 @@ impl<'m> Gyro<'m> {
             .iter()
             .filter_map(|(kind, known)| {
                 let change = known.change()?;
-                let kind = if change.apart { Kind::Apart } else { *kind };
+                let kind = if change.apart.is_some() { Kind::Apart } else { *kind };
                 let moved = change.per.iter().map(|per| self.relative(u, per.parameter)).collect();
                 Some(Acting { change, gain: known.gain, kind, moved, tail: u[instruments::TAIL] })
             })

@@ -23,7 +23,7 @@ impl Acting<'_> {
         for (per, moved) in self.change.per.iter().zip(&self.moved).filter(|(_, moved)| **moved != 0.0) {
             add(&mut changed, &per.parts[part], *moved);
         }
-        if let Some(per_tail) = self.change.per_tail.as_ref().filter(|_| self.tail != 0.0) {
+        if let Some(per_tail) = self.change.apart.as_ref().filter(|_| self.tail != 0.0) {
             add(&mut changed, &per_tail[part], self.tail);
         }
         changed
