@@ -1,14 +1,16 @@
 //! The courses of reduced models: drives and modes in the rows of a recording, and what thermometer and bias are of them.
 
-use crate::library::Functionals;
 use bias::units::DEG_PER_H_PER_RAD_PER_S;
 use coil::{Output, Outputs, Reduced, Slopes, Smooth};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// Place of the spool's thermometer among the channels.
 pub const SPOOL: usize = 0;
 /// Place of the rate among the channels.
 pub const RATE: usize = 1;
+
+/// The three bias parts as functionals of drives and modes.
+pub(crate) type Functionals = [DVector<f64>; 3];
 
 /// Mean bias parts in every row \[deg/h\]: Shupe, elasto-optic axial and radial.
 pub type Parts = [Vec<f64>; 3];

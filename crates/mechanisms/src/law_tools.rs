@@ -1,9 +1,9 @@
 //! The tools that mechanisms' laws are written with: a library's models under the chamber of a recording, changed.
 
 use crate::change::Change;
-use crate::course::{Parts, Series, add};
+use crate::course::{Functionals, Parts, Series, add};
 use crate::interpolation::{Lagrange, weights};
-use crate::library::{Functionals, Library};
+use crate::library::Library;
 use crate::record_to_bias::{Along, Prepared};
 use crate::series::rates_per_hour;
 use bias::units::{DEG_PER_H_PER_RAD_PER_S, S_PER_H};

@@ -2,6 +2,7 @@
 
 use crate::bond::{self, Bond};
 use crate::constants::{Constant, constants};
+use crate::course::Functionals;
 use crate::design::{heatable_flanges, with_heater, with_tail};
 use crate::heat_path::{AtWork, HeatPath};
 use crate::interpolation::{cubic_weights, nodes};
@@ -10,13 +11,9 @@ use coil::{
     Design, Error, HeatPaths, Heater, MODULI, MechanicalState, Mechanics, Output, Parameter, ParametricModel, Projected, Reduced,
     Side, Slopes, Tolerances, TurnFields,
 };
-use nalgebra::DVector;
 use std::collections::HashMap;
 use std::sync::Arc;
 use winding::{Half, LayerDefect, Winding};
-
-/// The three bias parts as functionals of drives and modes.
-pub(crate) type Functionals = [DVector<f64>; 3];
 
 /// Factors on the transverse moduli that are tabulated, within the range that is modelled.
 const MODULUS_NODES: usize = 9;
