@@ -520,7 +520,9 @@ fn a_record_at_half_the_rows_says_the_same() {
 fn what_a_record_does_not_hold_is_not_told() {
     // at rest, beside a thermometer's noise
     let still = Record::of(&UNIT, &[(0.0, 20.0), (20_000.0, 20.0)], &noise(), 0.05, 1).respond();
-    assert!(matches!(still, Err(Absent::Still { .. })), "{still:?}");
+    let Err(Absent::Still { range, needed }) = still else { panic!("{still:?}") };
+    // two movements of ten standard deviations of a reading
+    assert!(range < 0.5 && (needed - 2.0 * 10.0 * 0.05).abs() < 1e-12, "{range} {needed}");
     // nothing at all
     let none = Record {
         time: Vec::new(),

@@ -93,17 +93,31 @@ mod tests {
         assert_eq!((minima(&[1.0, 1.1, 1.2]), minima(&[3.0, 2.0, 1.0])), (vec![0], vec![2]));
     }
 
+    const INTERVAL: f64 = 20.0;
+
+    /// Instants, and a drive that rises over a ramp between rests.
+    fn course() -> [Vec<f64>; 2] {
+        let time: Vec<f64> = (0..120).map(|n| INTERVAL * f64::from(n)).collect();
+        let drive = time.iter().map(|t| 0.01 * (t - 300.0).clamp(0.0, 1000.0)).collect();
+        [time, drive]
+    }
+
+    /// A seat that follows a drive with one time constant.
+    fn following(time: &[f64], drive: &[f64], lag: f64) -> Vec<f64> {
+        drive.iter().zip(lagging(time, drive, lag)).map(|(drive, behind)| drive - behind).collect()
+    }
+
+    fn input<'a>(time: &'a [f64], drive: &'a [f64], seat: &'a [f64]) -> Input<'a> {
+        Input { time, values: seat, mask: &[], drive, reading: [0.0; 2], seat, interval: INTERVAL, averaging: INTERVAL }
+    }
+
     /// A seat that follows the drive over a ramp with one time constant: it is found between two that are tried, and none farther away than a step.
     #[test]
     fn exact_a_time_constant_is_found_within_a_step() {
         const LAG: f64 = 43.0;
-        let time: Vec<f64> = (0..120).map(|n| 20.0 * f64::from(n)).collect();
-        let drive: Vec<f64> = time.iter().map(|t| 0.01 * (t - 300.0).clamp(0.0, 1000.0)).collect();
-        let behind = lagging(&time, &drive, LAG);
-        let seat: Vec<f64> = drive.iter().zip(&behind).map(|(drive, behind)| drive - behind).collect();
-        let mask = vec![true; time.len()];
-        let [time, drive, seat] = [&time, &drive, &seat].map(Vec::as_slice);
-        let input = &Input { time, values: seat, mask: &mask, drive, reading: [0.0; 2], seat, interval: 20.0, averaging: 20.0 };
+        let [time, drive] = course();
+        let seat = following(&time, &drive, LAG);
+        let input = &input(&time, &drive, &seat);
         let found = |steps: f64| lowest(input, LAG * 2.0_f64.powf(steps / f64::from(STEPS))).expect("a minimum");
         for steps in [-0.9, -0.55, -0.2, 0.0, 0.3, 0.6, 0.95] {
             let (lag, squares) = found(steps);
@@ -114,6 +128,52 @@ mod tests {
             let (lag, squares) = found(steps);
             assert!(((lag / LAG).log2() * f64::from(STEPS) - nearest).abs() < 5e-3, "{steps}: {lag}");
             assert_eq!(squares, left(input, lag).unwrap());
+        }
+    }
+
+    /// The longest that is tried is four times the longest that settles, or the longest rest.
+    #[test]
+    fn exact_a_time_constant_is_found_between_those_that_are_tried() {
+        const LAG: f64 = 43.0;
+        let [time, drive] = course();
+        let seat = following(&time, &drive, LAG);
+        for (longest, rest) in [(35.0, 0.0), (80.0, 0.0), (6.2, 200.0)] {
+            let found = slowest(&input(&time, &drive, &seat), longest, rest).unwrap();
+            assert!(matches!(found, Slowest::Of(lag) if (lag / LAG - 1.0).abs() < 5e-4), "{longest}, {rest}: {found:?}");
+        }
+        assert_eq!(slowest(&input(&time, &drive, &seat), 5.0, 0.0).unwrap(), Slowest::Beyond);
+    }
+
+    /// A seat that stands still follows with any time constant, the first of which is taken as it is.
+    #[test]
+    fn exact_a_seat_that_stands_still_is_not_slow() {
+        let [time, drive] = course();
+        let seat = vec![0.0; time.len()];
+        assert_eq!(slowest(&input(&time, &drive, &seat), 80.0, 0.0).unwrap(), Slowest::Of(80.0 * FROM));
+    }
+
+    /// Halves of a time constant down to a quarter of an interval: the seat follows with one of them, or with one that is shorter.
+    #[test]
+    fn exact_time_constants_of_a_set_are_no_shorter_than_a_quarter_of_an_interval() {
+        const FIRST: f64 = 43.0;
+        let [time, drive] = course();
+        for (halves, is_left) in [(0, false), (1, false), (2, false), (3, false), (4, true)] {
+            let seat = following(&time, &drive, FIRST / 2.0_f64.powi(halves));
+            let squares = left(&input(&time, &drive, &seat), FIRST).unwrap();
+            assert_eq!(squares > 1e-20, is_left, "{halves}: {squares}");
+        }
+    }
+
+    /// A seat that settles from another temperature while the record begins, at whatever instant that is.
+    #[test]
+    fn exact_a_record_may_begin_at_any_instant_while_a_seat_settles() {
+        const LAG: f64 = 400.0;
+        let [mut time, drive] = course();
+        let seat: Vec<f64> = time.iter().map(|t| 3.0 * (-t / LAG).exp()).collect();
+        for origin in [0.0, 1e6, -1e6] {
+            time.iter_mut().enumerate().for_each(|(n, t)| *t = origin + INTERVAL * n as f64);
+            let squares = left(&input(&time, &drive, &seat), LAG).unwrap();
+            assert!(squares < 1e-20, "{origin}: {squares}");
         }
     }
 }
