@@ -1,6 +1,7 @@
 //! Flexible inputs at every stage of a coil's chain, and what single layers do.
 
-use crate::course::total;
+use crate::bond::Bond;
+use crate::course::{Parts, total};
 use crate::law_tools::Chain;
 use crate::mechanism::{Change, Mechanism, Stage};
 use crate::record_to_bias::Prepared;
@@ -89,8 +90,12 @@ impl Chain {
         material.extend(off(|of| of.of_mechanics() && !of.of_winding()));
         add(Stage::Material, material);
 
-        let bond = record.bonds.iter().flat_map(|bond| bond.openings.iter().step_by((bond.openings.len() / 2).max(1)));
-        add(Stage::Bond, bond.flat_map(|open| shaped(&Change::of_parts(open.drawn.clone()), &hats)).collect());
+        let some = |bond: &Bond<Parts>| {
+            let last = bond.openings.len() - 1;
+            [0, last / 2, last].map(|k| bond.openings[k].drawn.clone())
+        };
+        let bond = record.bonds.iter().flat_map(some);
+        add(Stage::Bond, bond.flat_map(|open| shaped(&Change::of_parts(open), &hats)).collect());
 
         let layers = self.library().design().winding.layers;
         let mut winding = vec![of_rate(total(&self.with_tail(record, TAIL)?))];
