@@ -1,6 +1,6 @@
 //! The changes that open shares of a bond of coil and flange make, as they are modelled.
 
-use crate::course::Parts;
+use crate::course::{Functionals, Parts};
 use crate::interpolation::cubic_weights;
 use coil::Parameter;
 
@@ -47,7 +47,7 @@ pub(crate) struct Opened<T> {
 /// Weights of openings and of slopes at an open share.
 pub(crate) struct Weights {
     openings: Vec<f64>,
-    pub(crate) slopes: Vec<f64>,
+    slopes: Vec<f64>,
 }
 
 /// Open shares at which a bond is modelled: the response follows the layers of a winding, and turns back within two of them; at the rim it begins like a root.
@@ -123,6 +123,33 @@ impl<T> Bond<T> {
     }
 }
 
+impl Bond<Functionals> {
+    /// The same about other constants, each changed by so much of itself.
+    pub(crate) fn moved(mut self, relative: impl Fn(Parameter) -> f64) -> Self {
+        let (expansion, followed) = (relative(Parameter::TransverseExpansion), FOLLOWED.map(relative));
+        let at: Vec<Weights> = self.openings.iter().map(|opened| self.weights(opened.share)).collect();
+        for (opened, at) in self.openings.iter_mut().zip(&at) {
+            add(&mut opened.drawn, expansion, &opened.per_expansion);
+            scale(&mut opened.per_expansion, 1.0 + expansion);
+            for (weight, (_, slopes)) in at.slopes.iter().zip(&self.slopes) {
+                slopes.iter().zip(followed).for_each(|(slope, moved)| add(&mut opened.drawn, weight * moved, slope));
+            }
+        }
+        for (_, slopes) in &mut self.slopes {
+            slopes.iter_mut().zip(followed).for_each(|(slope, moved)| scale(slope, 1.0 + moved));
+        }
+        self
+    }
+}
+
+fn add(to: &mut Functionals, much: f64, of: &Functionals) {
+    to.iter_mut().zip(of).for_each(|(to, of)| to.axpy(much, of, 1.0));
+}
+
+fn scale(functionals: &mut Functionals, factor: f64) {
+    functionals.iter_mut().for_each(|part| *part *= factor);
+}
+
 impl Bond<Parts> {
     /// Adds so much of what is open in a row: to the change as it is, and to those per relative change of each of the [`constants`].
     pub(crate) fn add_to(&self, change: &mut Parts, per: &mut [Parts], at: &Weights, row: usize, much: f64) {
@@ -142,6 +169,7 @@ impl Bond<Parts> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::DVector;
 
     #[test]
     fn shares_follow_the_layers_and_end_where_hardly_anything_holds() {
@@ -179,5 +207,32 @@ mod tests {
         }
         let doubled = bond.map(|parts| parts[0][0] * 2.0);
         assert!(doubled.iter().zip(bond.iter()).all(|(a, b)| (a - 2.0 * b[0][0]).abs() < 1e-15));
+    }
+
+    /// A coil whose expansion is a tenth more and whose stiffness a fifth: each slope acts at every share, those between the slopes', too, and follows its constant.
+    #[test]
+    fn exact_a_bond_is_moved_to_other_constants() {
+        let of = |number: f64| [0, 1, 2].map(|p: usize| DVector::from_element(2, number * (1.0 + p as f64)));
+        let all = shares(8);
+        let coarse = of_slopes(&all);
+        let each = |share: &f64| {
+            let slopes = if coarse.contains(share) { FOLLOWED.len() } else { 0 };
+            (*share, (1..=2 + slopes).map(|k| of(share * k as f64)).collect())
+        };
+        let moved = Bond::new(all.iter().map(each).collect()).moved(|constant| match constant {
+            Parameter::TransverseExpansion => 0.1,
+            Parameter::TransverseModulus => 0.2,
+            _ => 0.0,
+        });
+        for opened in &moved.openings {
+            for (part, factor) in opened.drawn.iter().zip([1.0, 2.0, 3.0]) {
+                // 1 as drawn, 2 per expansion, 3 per stiffness
+                assert!((part[1] - opened.share * factor * (1.0 + 0.2 + 0.6)).abs() < 1e-12, "{}: {part}", opened.share);
+            }
+            assert!((opened.per_expansion[0][0] - 2.2 * opened.share).abs() < 1e-12);
+        }
+        for (share, slopes) in &moved.slopes {
+            assert!((slopes[0][0][0] - 3.6 * share).abs() < 1e-12 && (slopes[1][0][0] - 4.0 * share).abs() < 1e-12);
+        }
     }
 }

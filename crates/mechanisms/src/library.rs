@@ -1,6 +1,6 @@
 //! Reduced models of a design, and of what it may leave out: once for every design of a box, and at one of them.
 
-use crate::bond::{self, Bond};
+use crate::bond::Bond;
 use crate::constants::{Constant, constants};
 use crate::course::Functionals;
 use crate::design::{heatable_flanges, with_heater, with_tail};
@@ -209,30 +209,9 @@ impl Library {
             let [own, drawn] = [&self.design, &self.models.drawing].map(|design| parameter.of(design).unwrap_or(0.0));
             if drawn == 0.0 { 0.0 } else { own / drawn - 1.0 }
         };
-        let (expansion, followed) = (relative(Parameter::TransverseExpansion), bond::FOLLOWED.map(relative));
         let mut states = 1 + 2 * self.moduli.len()..;
-        let mut about = |bond: &Bond<Projected>| {
-            let mut bond = bond.map(|_| self.functionals(states.next().unwrap_or(0)));
-            let shares: Vec<_> = bond.openings.iter().map(|opened| bond.weights(opened.share)).collect();
-            for (opened, at) in bond.openings.iter_mut().zip(&shares) {
-                for p in 0..3 {
-                    opened.drawn[p] += &opened.per_expansion[p] * expansion;
-                    opened.per_expansion[p] *= 1.0 + expansion;
-                    for (weight, (_, slopes)) in at.slopes.iter().zip(&bond.slopes) {
-                        slopes
-                            .iter()
-                            .zip(followed)
-                            .for_each(|(slope, moved)| opened.drawn[p].axpy(weight * moved, &slope[p], 1.0));
-                    }
-                }
-            }
-            let followed = |slopes: &mut Vec<Functionals>| {
-                slopes.iter_mut().zip(followed).for_each(|(slope, moved)| slope.iter_mut().for_each(|part| *part *= 1.0 + moved));
-            };
-            bond.slopes.iter_mut().for_each(|(_, slopes)| followed(slopes));
-            bond
-        };
-        self.models.bonds.iter().map(&mut about).collect()
+        let mut of = |bond: &Bond<Projected>| bond.map(|_| self.functionals(states.next().unwrap_or(0))).moved(relative);
+        self.models.bonds.iter().map(&mut of).collect()
     }
 
     /// Derivatives of the response to a watt in one of the flanges that may be heated, by every constant; and what a metre more of the CW tail changes of

@@ -99,7 +99,7 @@ fn what_check_refuses_or_doubts_is_refused_or_doubted() {
     refused(changed(|_, f| format!("{},{},{},{:e}", f[0], f[1], f[2], number(f[3]) / 3600.0)), "is it in deg/s");
     let fahrenheit = |text: &str| format!("{:.2}", 1.8 * number(text) + 32.0);
     let text = changed(|_, f| format!("{},{},{},{}", f[0], fahrenheit(f[1]), fahrenheit(f[2]), f[3]));
-    let (_, notes, _) = verdict(&text.lines().take(121).fold(String::new(), |hour, line| hour + line + "\n"));
+    let (_, notes, _) = verdict(&text.lines().take(66).fold(String::new(), |some, line| some + line + "\n"));
     for channel in ["chamber_c", "spool_c"] {
         let hint = format!("warning: r.csv: {channel}: starts at ");
         let said = notes.lines().filter(|line| line.starts_with(&hint) && line.contains("is it in degF?"));
