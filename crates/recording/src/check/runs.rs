@@ -236,4 +236,10 @@ mod tests {
         assert_eq!([8, 9, 10].map(|length| unlikely(length, 200, noise, step)), [false, false, true]);
         assert_eq!([8, 9, 10].map(|length| unlikely(length, 50, noise, step)), [false, true, true]);
     }
+
+    /// Of a thousand rows with noise of a step, neighbours meet with a probability of 0.282: 17 alike are chance (1.6e-6), 18 are not (4.5e-7).
+    #[test]
+    fn exact_a_run_is_unlikely_from_a_length_on() {
+        assert_eq!([17, 18].map(|length| unlikely(length, 1000, 1.0, 1.0)), [false, true]);
+    }
 }
