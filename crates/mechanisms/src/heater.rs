@@ -39,9 +39,10 @@ impl Heating {
     }
 }
 
-/// Times before the first row for which derivatives are worked out: at none, and at so many more, the last of them this many intervals of the record earlier.
+/// Times before the first row for which derivatives are worked out: at none, and at others up to the earliest \[s\], three spreads of its prior from the
+/// median, whatever the record's interval; what was switched on before that is taken as then.
 const TIMES: usize = 9;
-const EARLIEST: f64 = 300.0;
+const EARLIEST_S: f64 = 5400.0;
 /// Intervals within which the time matters for the first readings.
 const WITHIN: f64 = 0.3;
 
@@ -63,7 +64,7 @@ impl HeaterSlopes {
         let (slopes, tail) = library.heater_slopes(side)?;
         let interval = clock.rows.get(1).map_or(1.0, |second| clock.time[*second] - clock.time[0]);
         let scale = WITHIN * interval;
-        let last = (1.0 + EARLIEST / WITHIN).ln();
+        let last = (1.0 + EARLIEST_S / scale).ln();
         let nodes: Vec<f64> = (0..TIMES).map(|k| last * k as f64 / (TIMES - 1) as f64).collect();
         let values = library.values();
         let at = |node: &f64| {
