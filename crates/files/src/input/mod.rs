@@ -88,5 +88,5 @@ pub use schema::schemas;
 pub use spool::{SpoolCase, read_spool};
 pub use targets::{TargetsCase, check_targets, read_targets};
 pub use tolerances::{keyed, keyed_sd, usual_tolerances};
-pub use warnings::mean_diameter;
+pub use warnings::{mean_diameter, warnings};
 pub use written_constants::with_constants;

@@ -39,7 +39,7 @@ pub(crate) fn in_medium(layout: &Layout, sensor: Sensor) -> bool {
 }
 
 /// A warning of each thing that is allowed but looks like a mistake.
-pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> Vec<Note> {
+pub fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> Vec<Note> {
     let mut found = Vec::new();
     let (body, pitch) = (&design.body, design.winding.pitch);
     let mut unfilled = |what: &str, field: &str, room: f64, body: f64, winding: f64, meaning: &str| {
@@ -95,8 +95,8 @@ pub(crate) fn warnings(design: &Design, layout: &Layout, winding: &Winding) -> V
     };
     if layers % period != 0 {
         let message = format!(
-            "winding.layers: {layers} layers are no whole number of the {period} after which a {pattern:?} begins anew: the halves of the \
-             fibre lie differently; is this meant?"
+            "winding.layers: {layers} layers are no whole number of the {period} after which the pattern {pattern:?} begins anew: the halves of \
+             the fibre lie differently; is this meant?"
         );
         found.push(Remark::BrokenPattern.warning(message));
     }

@@ -1,6 +1,6 @@
 //! The optimum, checked by the full model and explained.
 
-use coil::{Band, Design, STEADY, SteadySensitivity, Tolerances, sensitivity_on};
+use coil::{Band, Design, Layout, STEADY, SteadySensitivity, Tolerances, sensitivity_on};
 use rayon::prelude::*;
 use winding::wind;
 
@@ -8,13 +8,13 @@ use super::evaluate::Tried;
 use super::measure::Measures;
 use super::plan::Plan;
 use crate::Error;
-use crate::input::CoilCase;
+use crate::input::{CoilCase, warnings};
 use crate::sweep::{Points, Sampling};
 use crate::variants::{Dimensions, Factor, Value, Variants};
 
 /// An optimum that was checked.
 pub struct Checked {
-    /// Its design.
+    /// Its design, with the warnings that it has and the drawing has not.
     pub case: CoilCase,
     /// The design that was tried.
     pub tried: Tried,
@@ -43,7 +43,10 @@ pub fn check(plan: &Plan, tried: &Tried) -> Result<Checked, Error> {
     let at = Error::of_coil(&drawn.file);
     let variant = plan.variants.at(&tried.point).map_err(Error::usage)?;
     let winding = wind(&variant.design.winding).map_err(|error| at(error.into()))?;
-    let case = CoilCase { design: variant.design, winding, ..drawn.clone() };
+    let layout = Layout::new(&variant.design).map_err(at)?;
+    let mut warnings = warnings(&variant.design, &layout, &winding);
+    warnings.retain(|warning| !drawn.warnings.contains(warning));
+    let case = CoilCase { design: variant.design, winding, warnings, ..drawn.clone() };
     let (steady, band) = (case.steady_sensitivity()?, case.sensitivity_band()?);
     let within = within(plan, &case);
     Ok(Checked { path: path(plan, tried), case, tried: tried.clone(), steady, band, within })

@@ -52,6 +52,7 @@ fn optimum(plan: &Plan, checked: &Checked) -> Value {
         "error_estimate": checked.steady.error_estimate,
         "tolerance_sd": checked.band.sd,
         "units": {"count": checked.within.len(), "p95": most, "largest": largest, "share_below_half": checked.share_below(0.5)},
+        "warnings": checked.case.warnings,
         "path": checked.path.iter().map(step).collect::<Vec<_>>(),
     })
 }

@@ -8,7 +8,7 @@ use super::front::front;
 use super::picture::figure;
 use super::plan::Plan;
 use super::search::Found;
-use super::text::{NOTHING, at_ends, designs, of_optimum, of_spread, on_the_front, steps, within_error};
+use super::text::{NOTHING, designs, of_optimum, on_the_front, remarks, steps};
 use crate::report::{provenance, sentence};
 
 /// The front, the optimum with its check, and the changes that lead to it.
@@ -32,8 +32,8 @@ pub fn report(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
             Some(checked) => {
                 @for text in of_optimum(plan, found, checked) { p { (sentence(&text)) } }
                 (headed("What leads there, change by change; S in (deg/h)/(degC/min)", &steps(found, checked)))
-                @for text in [within_error(found, checked), Some(of_spread(checked)), at_ends(plan, found, &best)].iter().flatten() {
-                    p { (sentence(text)) }
+                @for text in remarks(plan, found, &best, checked) {
+                    p { (sentence(&text)) }
                 }
             }
         }

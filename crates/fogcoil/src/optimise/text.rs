@@ -38,8 +38,7 @@ pub fn text(plan: &Plan, found: &Found, checked: Option<&Checked>) -> String {
             let [first, second] = of_optimum(plan, found, checked);
             let steps = with_end(steps(found, checked));
             let _ = write!(out, "\n{first}\n{second}\n\n{steps}\n");
-            let remarks = [within_error(found, checked), Some(of_spread(checked)), at_ends(plan, found, &best)];
-            for remark in remarks.into_iter().flatten() {
+            for remark in remarks(plan, found, &best, checked) {
                 let _ = writeln!(out, "{remark}");
             }
         }
@@ -141,8 +140,15 @@ fn changes<'a>(found: &Found, checked: &'a Checked) -> impl Iterator<Item = (&'a
     })
 }
 
+/// Remarks on the optimum.
+pub(super) fn remarks(plan: &Plan, found: &Found, best: &[usize], checked: &Checked) -> Vec<String> {
+    let warnings = checked.case.warnings.iter().map(|warning| format!("warning about the optimum: {}", warning.message()));
+    let remarks = [within_error(found, checked), Some(of_spread(checked)), at_ends(plan, found, best)];
+    warnings.chain(remarks.into_iter().flatten()).collect()
+}
+
 /// The changes whose effect is no larger than the sensitivity's numerical error, if there are such.
-pub(super) fn within_error(found: &Found, checked: &Checked) -> Option<String> {
+fn within_error(found: &Found, checked: &Checked) -> Option<String> {
     let small = |effect: Option<f64>| effect.is_some_and(|effect| effect.abs() <= checked.steady.error_estimate);
     let keys: Vec<&str> =
         changes(found, checked).filter(|(_, effect)| small(*effect)).map(|(change, _)| change.0.as_str()).collect();
@@ -150,14 +156,14 @@ pub(super) fn within_error(found: &Found, checked: &Checked) -> Option<String> {
 }
 
 /// The tolerances that the optimum's spread comes from.
-pub(super) fn of_spread(checked: &Checked) -> String {
+fn of_spread(checked: &Checked) -> String {
     let shares =
         Share::of(&checked.case, &checked.band).into_iter().take(4).map(|s| format!("{} ({:.0} %)", s.key, 100.0 * s.share));
     format!("what is left of its spread comes from {}", shares.collect::<Vec<_>>().join(", "))
 }
 
 /// The keys of which the optimum stands at an end of what the plan lets them be, if there are such.
-pub(super) fn at_ends(plan: &Plan, found: &Found, best: &[usize]) -> Option<String> {
+fn at_ends(plan: &Plan, found: &Found, best: &[usize]) -> Option<String> {
     let optimum = &found.all[*best.first()?];
     let ends = |varied: &Varied| match varied {
         Varied::Uniform(low, high) | Varied::LogUniform(low, high) | Varied::Steps(low, high, _) => Some([*low, *high]),

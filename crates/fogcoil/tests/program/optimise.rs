@@ -150,6 +150,26 @@ fn designs_without_a_part_are_tried_and_those_that_cannot_be_are_counted() {
 }
 
 #[test]
+fn a_warning_about_the_optimum_is_told_with_it() {
+    let folder = Folder::new();
+    folder.write("coil.ron", COIL);
+    let run = |layers: u32, more: &[&str]| {
+        let plan = format!(
+            "(design: \"coil.ron\", vary: {{\"winding.layers\": OneOf([\"{layers}\"])}}, dimensions: FollowWinding, minimise: [Sensitivity], trials: 10)"
+        );
+        folder.write("plan.ron", plan);
+        stdout(&folder.run(&[&["optimise", "plan.ron", "--quiet"], more].concat()))
+    };
+    let json: Value = serde_json::from_str(&run(35, &["--json"])).unwrap();
+    let warnings = json["optimum"]["warnings"].as_array().unwrap();
+    assert!(warnings.len() == 1 && warnings[0].as_str().unwrap().contains("[broken-pattern]"), "{json}");
+    let text = run(35, &[]);
+    assert!(text.contains("about the optimum: winding.layers: 35 layers are no whole number of the 4"), "{text}");
+    let whole: Value = serde_json::from_str(&run(32, &["--json"])).unwrap();
+    assert!(whole["optimum"]["warnings"].as_array().unwrap().is_empty(), "{whole}");
+}
+
+#[test]
 fn limits_that_nothing_keeps_leave_no_optimum() {
     let folder = Folder::new();
     folder.write("coil.ron", COIL);
