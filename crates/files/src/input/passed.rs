@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::InputError;
 use super::rows::{Dialect, Rows, quoted};
-use crate::Remark;
+use crate::{Remark, shown};
 
 /// Between the files of a unit in the table of a batch.
 pub const BETWEEN_FILES: &str = "; ";
@@ -32,14 +32,17 @@ pub fn read_passed(path: &Path) -> Result<Passed, InputError> {
     };
     let [judged, files] = [place("judged")?, place("files")?];
     // an older table may have none
-    let [unit, warnings] = ["unit", "warnings"].map(|name| names.iter().position(|known| known == name));
+    let [unit, reason, warnings] = ["unit", "reason", "warnings"].map(|name| names.iter().position(|known| known == name));
     let mut passed = Passed::default();
+    let mut first_not = None;
     while rows.advance()? {
         rows.check_count(names.len(), ",", |_, _| "give the table as fogcoil batch wrote it")?;
+        let field = |place: Option<usize>| place.map_or("", |place| rows.field(place));
         if rows.field(judged) != "pass" {
+            let why = [field(unit), field(reason)];
+            first_not = first_not.or_else(|| why.iter().all(|text| !text.is_empty()).then(|| why.map(|text| shown(text))));
             continue;
         }
-        let field = |place: Option<usize>| place.map_or("", |place| rows.field(place));
         let is_void = |id: &str| Remark::ALL.iter().any(|remark| remark.id() == id && remark.voids());
         if field(warnings).split(BETWEEN_FILES).any(is_void) {
             passed.left_out.push(field(unit).to_owned());
@@ -59,7 +62,8 @@ pub fn read_passed(path: &Path) -> Result<Passed, InputError> {
     }
     if passed.units.is_empty() {
         let remedy = "let fogcoil batch judge them by --limits, or name the units with --unit";
-        return Err(rows.whole_fault("no unit has passed", remedy));
+        let why = first_not.map_or(String::new(), |[unit, reason]| format!("; of the first, {unit}: {reason}"));
+        return Err(rows.whole_fault(&format!("no unit has passed{why}"), remedy));
     }
     Ok(passed)
 }
@@ -92,6 +96,9 @@ mod tests {
     fn a_table_without_any_is_refused() {
         let refused = |text: &str| read(text).unwrap_err();
         assert!(refused("unit,judged,files\nA,fail,a.csv\n").contains("no unit has passed; let fogcoil batch judge them"));
+        // the reason of the first, where the table has reasons
+        let unsure = refused("unit,judged,reason,files\nA,not known,\"verdict_probability is 0.7, not within 0.9 and 1\",a.csv\n");
+        assert!(unsure.contains("no unit has passed; of the first, ") && unsure.contains("verdict_probability is 0.7"), "{unsure}");
         assert!(
             refused("unit,files\nA,a.csv\n").contains("judged: the column is missing"),
             "{}",
