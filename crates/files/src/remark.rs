@@ -301,7 +301,7 @@ remarks! {
         "Record the spool's temperature.";
     NotAtRest "not-at-rest":
         "A recording starts while the chamber still moves, or spool and chamber differ.",
-        "The model starts at rest: what that leaves in the first hours is no finding.",
+        "The model starts at rest: what that leaves in the first hours is no finding. A unit that is switched on with the record warms its spool, too: if the answer is self-heating, the model has that.",
         "Soak until chamber and spool agree before recording, or cut the beginning off.";
     SpoolFirst "spool-first":
         "The chamber's readings follow the spool's, with a time constant; the other way round no time constant explains them.",

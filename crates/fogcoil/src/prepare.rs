@@ -192,7 +192,7 @@ fn moved_in_gap(case: &RecordCase) -> Option<Note> {
 /// A note on a recording that does not start at rest; a warning where that is far.
 fn off_rest(time: &[f64], chamber: &[f64], spool: &[f64]) -> Option<Note> {
     let (by, off) = match unrest(time, chamber, spool, &REST)? {
-        Unrest::Apart(by) => (by, format!("spool and chamber differ by {by:.1} K, and the difference is shrinking")),
+        Unrest::Apart(by) => (by, format!("spool and chamber differ by {by:.1} K, and the difference changes")),
         Unrest::Moving(by) => (by, format!("the chamber moves by {by:.1} K in the first {} min", REST.duration / S_PER_MIN)),
     };
     let text = format!("does not start at rest ({off}): the model assumes rest; residuals from this are not findings");

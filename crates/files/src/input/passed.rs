@@ -97,8 +97,12 @@ mod tests {
         let refused = |text: &str| read(text).unwrap_err();
         assert!(refused("unit,judged,files\nA,fail,a.csv\n").contains("no unit has passed; let fogcoil batch judge them"));
         // the reason of the first, where the table has reasons
-        let unsure = refused("unit,judged,reason,files\nA,not known,\"verdict_probability is 0.7, not within 0.9 and 1\",a.csv\n");
-        assert!(unsure.contains("no unit has passed; of the first, ") && unsure.contains("verdict_probability is 0.7"), "{unsure}");
+        let unsure =
+            refused("unit,judged,reason,files\nA,not known,\"verdict_probability is 0.7, not within 0.9 and 1\",a.csv\n");
+        assert!(
+            unsure.contains("no unit has passed; of the first, ") && unsure.contains("verdict_probability is 0.7"),
+            "{unsure}"
+        );
         assert!(
             refused("unit,files\nA,a.csv\n").contains("judged: the column is missing"),
             "{}",
