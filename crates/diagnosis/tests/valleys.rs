@@ -77,6 +77,24 @@ fn a_better_minimum_is_found_along_a_bent_valley_of_a_nuisance() {
     assert!((goes - 2.55).abs() < 0.05, "{goes}");
 }
 
+/// The fit has strayed from what is expected of a nuisance, 0, to the one side; the better minimum is beyond that on the other.
+#[test]
+fn a_better_minimum_is_found_beyond_what_is_expected_of_a_nuisance_however_far_that_is() {
+    let strayed = |around: &[f64], side: f64| {
+        let valleys = move |p: &[f64]| {
+            let (place, beside) = (p[0], side * p[1]);
+            let (middle, ground) = if beside > -0.5 { (2.4, GROUND) } else { (-2.0, GROUND - 7.0) };
+            [100.0 * (place - beside), 2.0 * (beside - middle), (2.0_f64 * ground).sqrt(), 0.0, 0.0, 0.0, 0.0, 0.0]
+        };
+        Valleys::new(&[&[0.0]], &[0.01], valleys).beside(10.0, around).fitted().active[0].values[0]
+    };
+    for side in [-1.0, 1.0] {
+        // distances that increase by 0.2 lead on, one alone does not
+        let [stays, goes] = [&[1.0][..], &[0.6, 0.8, 1.0]].map(|around| strayed(around, side));
+        assert!((stays - 2.4).abs() < 0.05 && (goes + 2.0).abs() < 0.05, "{stays} {goes}");
+    }
+}
+
 /// Valleys about 0 and 2, of so many standard deviations' distance and with these grounds.
 fn apart(distance: f64, grounds: [f64; 2]) -> Valleys {
     Valleys::new(&[&[0.0], &[2.0]], &[], move |p| {
@@ -138,6 +156,24 @@ fn an_interval_holds_every_value_that_does_the_same() {
     assert!((twofold.value.abs() - 1.0).abs() < 0.05, "{twofold:?}");
     assert!(twofold.ci90[0] < -1.0 && twofold.ci90[1] > 1.0 && twofold.ci90[1] - twofold.ci90[0] < 2.3, "{twofold:?}");
     assert!(other.ci90[0] < 1.0 && other.ci90[1] > 1.0 && other.ci90[1] - other.ci90[0] < 0.5, "{other:?}");
+}
+
+/// The records know such a parameter best, and a second look has been around it.
+#[test]
+fn a_parameter_that_is_looked_around_stays_where_it_is() {
+    let interval = |around: &[f64]| {
+        let model = Valleys::new(&[&[1.5, 0.3], &[-1.5, 0.3]], around, |p| {
+            let [square, other] = [10.0 * p[0] * p[0], 5.0 * p[1]];
+            [square, square, square, square, other, other, other, other]
+        });
+        let seen = vec![10.0, 10.0, 10.0, 10.0, 5.0, 5.0, 5.0, 5.0];
+        let record = Observation { channels: vec![seen], ..Valleys::record() };
+        let found = diagnose(&model, &[0], &[record], &Settings::default(), &|_| ()).expect("a diagnosis");
+        let [low, high] = found.parameters[0][0].ci90;
+        high - low
+    };
+    let [goes_elsewhere, stays] = [&[][..], &[0.01]].map(interval);
+    assert!(goes_elsewhere > 2.0 && stays < 0.3, "{goes_elsewhere} {stays}");
 }
 
 /// Fits that all begin on one side of a square's turning point know of the other side's better ground by looking there.

@@ -98,7 +98,9 @@ impl Offset {
             (mean, (squares / count.max(1.0) - mean * mean).max(0.0).sqrt())
         };
         let (mean, _) = moments(&mut recorded.iter().zip(predicted).map(|(y, p)| y - p));
-        let (_, spread) = moments(&mut recorded.iter().map(|y| y - mean));
+        // distances from one of them: exact where all are alike, and where they differ little for their size
+        let first = recorded.iter().copied().find(|y| y.is_finite()).unwrap_or_default();
+        let (_, spread) = moments(&mut recorded.iter().map(|y| y - first));
         // a channel that stands still has an offset all the same
         let sd = ANYTHING * if spread > 0.0 { spread } else { channel.noise.white.0 };
         Self { mean, sd }
@@ -171,5 +173,76 @@ impl<'a> Fitter<'a> {
             None => None,
         };
         Beforehand::new(layout.len(), |i, j| Some(precision.as_ref()?[(shared(i)?, shared(j)?)]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::candidate;
+    use crate::{NoisePrior, Nuisance, Omission, State};
+
+    /// What is expected of an offset that may be anything, beside white noise of a half.
+    fn of_any(recorded: &[f64], predicted: &[f64]) -> [f64; 2] {
+        let noise = NoisePrior::new((0.5, 1.0), (0.1, 1.0), (1000.0, 1.0), (0.1, 1.0));
+        let channel = Channel { name: "y".into(), unit: "1".into(), offset: (0.0, f64::INFINITY), averaging: 0.0, noise };
+        let Offset { mean, sd } = Offset::of(&channel, recorded, predicted);
+        [mean, sd]
+    }
+
+    #[test]
+    fn exact_an_offset_that_may_be_anything_is_as_wide_as_ten_spreads_of_the_record() {
+        // rows of 6 ± 2, the first one not recorded; what is predicted moves the middle alone
+        let recorded = [f64::NAN, 8.0, 4.0];
+        for (predicted, mean) in [([7.0, 3.0, 3.0], 3.0), ([0.0, 1.0, 9.0], 1.0), ([0.0; 3], 6.0)] {
+            assert_eq!(of_any(&recorded, &predicted), [mean, 20.0]);
+        }
+        // about 0, far from 0 and where that is predicted
+        assert_eq!(of_any(&[-2.0, 2.0], &[0.0; 2]), [0.0, 20.0]);
+        assert_eq!(of_any(&[1e9, 1e9 + 4.0], &[0.0; 2]), [1e9 + 2.0, 20.0]);
+        assert_eq!(of_any(&[1e9, 1e9 + 4.0], &[1e9; 2]), [2.0, 20.0]);
+    }
+
+    #[test]
+    fn exact_the_offset_of_a_channel_that_stands_still_is_as_wide_as_ten_times_its_noise() {
+        for still in [0.0, 0.1, 25.3, -1e9] {
+            let [_, sd] = of_any(&[still; 7], &[20.0, 20.1, 20.2, 20.3, 20.4, 20.5, 20.6]);
+            assert_eq!(sd, 5.0, "{still}");
+        }
+    }
+
+    struct Drawn([Nuisance; 2]);
+
+    impl ForwardModel for Drawn {
+        fn channels(&self) -> &[Channel] {
+            &[]
+        }
+        fn nuisances(&self) -> &[Nuisance] {
+            &self.0
+        }
+        fn mechanisms(&self) -> &[Omission] {
+            &[]
+        }
+        fn respond(&self, _: usize, _: &[f64], _: &[Active]) -> Result<Vec<Vec<f64>>, crate::Failure> {
+            Ok(Vec::new())
+        }
+        fn state(&self, _: usize) -> &State {
+            const { &State { level: Vec::new(), rate: Vec::new() } }
+        }
+    }
+
+    #[test]
+    fn a_fit_as_drawn_has_every_constant_in_every_record_where_the_design_has_it() {
+        let constant = |mean: f64| Nuisance::normal("constant", mean, 0.1, Role::Constant);
+        let strayed = Fit {
+            nuisances: vec![vec![3.2, -5.1], vec![3.3, -5.1]],
+            u: DVector::from_column_slice(&[2.0, -1.0, 3.0]),
+            log_evidence: -7.0,
+            ..candidate(&[4], 1.0).fit
+        };
+        let drawn = strayed.as_drawn(&Drawn([3.0, -5.0].map(constant)));
+        assert_eq!((drawn.nuisances, drawn.u), (vec![vec![3.0, -5.0]; 2], DVector::zeros(3)));
+        // all else stays
+        assert_eq!((drawn.hypothesis, drawn.log_evidence), (strayed.hypothesis, -7.0));
     }
 }
