@@ -112,7 +112,7 @@ fn a_heater_of_the_design_s_own_follows_the_chain() {
     let mut unheated = heated.clone();
     unheated.heat.heaters.clear();
     let [with, without] = [&heated, &unheated].map(|design| {
-        let gyro = of(shared::library(design, CATALOGUE, &|_| ()), CATALOGUE);
+        let gyro = of(shared::library(design, &[], &|_| ()), &[]);
         let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
         gyro.respond(0, &middle, &[]).expect("response")
     });
@@ -130,8 +130,9 @@ fn a_drift_of_the_design_s_own_follows_the_chain() {
     let mut drifting = design();
     drifting.drifts.read_out = 0.01 / bias::units::DEG_PER_H_PER_RAD_PER_S;
     drifting.drifts.reference = 35.0;
-    let [with, without] = [&drifting, &design()].map(|design| {
-        let gyro = of(shared::library(design, &[], &|_| ()), &[]);
+    let sound = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).library().clone();
+    let [with, without] = [shared::library(&drifting, &[], &|_| ()), sound].map(|library| {
+        let gyro = of(library, &[]);
         let middle: Vec<f64> = gyro.nuisances().iter().map(|n| n.parameter.prior.value(0.0)).collect();
         gyro.respond(0, &middle, &[]).expect("response").swap_remove(RATE)
     });
@@ -218,7 +219,8 @@ fn short() -> Design {
 
 #[test]
 fn a_short_coil_s_tail_follows_the_chain() {
-    let gyro = of(shared::library(&short(), CATALOGUE, &|_| ()), CATALOGUE);
+    let tail = [mechanisms::find("tail-asymmetry").expect("in the catalogue")];
+    let gyro = of(shared::library(&short(), &tail, &|_| ()), &tail);
     let (changed, responses) = with_mechanism(&gyro, &short(), "tail-asymmetry", &[0.3], None);
     let [exact, nominal] = [&changed, &short()].map(anew);
     agree("a short coil's tail", &responses, &exact, &nominal, &[RATE]);

@@ -8,6 +8,7 @@ use mechanisms::{
     CATALOGUE, Chamber, Extent, Instrument, Instruments, Naming, ON_REQUEST, RATE, Scene, Steady, find, number_of, reading_of,
     with_constant,
 };
+use std::sync::OnceLock;
 
 const SCENE: Scene = Scene { temperatures: [-20.0, 60.0], noise: 0.01, earth: None };
 
@@ -60,6 +61,26 @@ fn readings_are_known_by_column_and_kind() {
     assert_eq!(reading_of("k_r"), None);
 }
 
+/// A coil of few turns whose thermometer is drawn with a lag of 4 s: its model is soon made.
+fn small() -> Library {
+    static SMALL: OnceLock<Library> = OnceLock::new();
+    let made = SMALL.get_or_init(|| {
+        let mut design = reference();
+        design.winding = winding::Spec {
+            layers: 4,
+            turns_odd_layers: 25,
+            turns_even_layers: 24,
+            inner_radius: 43.5e-3,
+            pitch: 0.17e-3,
+            ..design.winding
+        };
+        (design.body.outer_radius, design.body.height) = (44.2e-3, 4.3e-3);
+        (design.sensor.y, design.sensor.lag) = (2.0e-3, 4.0);
+        shared::library(&design, &[], &|_| ())
+    });
+    made.clone()
+}
+
 #[test]
 fn exact_a_data_sheet_s_lag_is_one_of_the_drawing_s() {
     let prior = |library: Library, lag: Option<f64>, unsaid: f64| -> [Prior; 2] {
@@ -72,9 +93,7 @@ fn exact_a_data_sheet_s_lag_is_one_of_the_drawing_s() {
         };
         ["lag of the spool's thermometer", "squared time constant of the rate's filter [s2]"].map(of)
     };
-    let mut slow = reference();
-    slow.sensor.lag = 4.0;
-    let [lag, filter] = prior(shared::library(&slow, &[], &|_| ()), Some(6.0), 60.0);
+    let [lag, filter] = prior(small(), Some(6.0), 60.0);
     assert_eq!(lag, Prior::Normal { mean: 1.5, sd: 0.2 * 1.5 });
     let Prior::Normal { mean, sd } = filter else { panic!("{filter:?}") };
     assert!(mean == 0.0 && (sd - 500.0_f64.hypot(300.0)).abs() < 1e-9, "{sd}");
@@ -125,19 +144,7 @@ fn a_layer_is_located_among_less_than_half_of_all() {
 /// A layer of few turns has fewer to lose.
 #[test]
 fn exact_a_short_layer_keeps_a_turn() {
-    let mut design = reference();
-    design.winding = winding::Spec {
-        layers: 4,
-        turns_odd_layers: 25,
-        turns_even_layers: 24,
-        inner_radius: 43.5e-3,
-        pitch: 0.17e-3,
-        ..design.winding
-    };
-    (design.body.outer_radius, design.body.height) = (44.2e-3, 4.3e-3);
-    design.sensor.y = 2.0e-3;
-    let mechanism = [find("winding-defect").expect("in the catalogue")];
-    let gyro = super::of(shared::library(&design, &[], &|_| ()), &mechanism);
+    let gyro = super::of(small(), &[find("winding-defect").expect("in the catalogue")]);
     let u = diagnosis::expected(gyro.nuisances());
     let of = |turns: f64| {
         let active = Active { mechanism: 0, values: vec![turns], choice: Some(2.0) };
