@@ -35,10 +35,8 @@ impl Chamber {
 
     /// The same at other instants, on straight lines between its own, constant before the first and after the last; NaN where there is none.
     pub fn at(&self, instants: &[f64]) -> Self {
-        let Some(last) = self.time.len().checked_sub(1) else {
-            return Self { time: instants.to_vec(), values: vec![f64::NAN; instants.len()], ..self.clone() };
-        };
         let at = |t: &f64| {
+            let Some(last) = self.time.len().checked_sub(1) else { return f64::NAN };
             let after = self.time.partition_point(|own| own < t).min(last);
             let before = after.saturating_sub(1);
             let span = self.time[after] - self.time[before];

@@ -132,3 +132,14 @@ impl Chain {
         Ok(Latent { stage: Stage::Winding.name().to_owned(), functions: layers.map(of).collect::<Result<_, Error>>()? })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_coil_that_rests_has_one_shape() {
+        assert_eq!(hats(&[25.0; 3]), [[1.0; 3]]);
+        assert_eq!(hats(&[20.0, 21.0, 28.0]).len(), HATS);
+    }
+}

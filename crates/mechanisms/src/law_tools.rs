@@ -42,12 +42,7 @@ impl Chain {
 
     /// Change by a small step along a heat path, from the library's own design.
     pub(crate) fn nudged(&self, record: &Prepared, id: &str, place: usize, by: f64) -> Change {
-        let step = |path: &Along| {
-            let ahead = path.own + by;
-            // from the path's end it goes back
-            let x = if path.nodes.last().is_some_and(|last| ahead > *last) { path.own - by } else { ahead };
-            Self::at(record, path, x)
-        };
+        let step = |path: &Along| Self::at(record, path, stepped(&path.nodes, path.own, by));
         Self::path(record, id, place).map_or_else(|| Self::still(record), step)
     }
 
@@ -172,5 +167,21 @@ impl Chain {
             }
         }
         change
+    }
+}
+
+/// A small step along a path from a coordinate of its own; where the path ends before, it goes back.
+fn stepped(nodes: &[f64], own: f64, by: f64) -> f64 {
+    let ahead = own + by;
+    if nodes.last().is_some_and(|last| ahead > *last) { own - by } else { ahead }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_step_goes_as_far_as_the_end_and_from_there_back() {
+        assert_eq!([0.25, 0.75, 0.875].map(|own| stepped(&[0.0, 0.5, 1.0], own, 0.25)), [0.5, 1.0, 0.625]);
     }
 }

@@ -13,7 +13,7 @@ use coil::{
 };
 use std::collections::HashMap;
 use std::sync::Arc;
-use winding::{Half, LayerDefect, Winding};
+use winding::{LayerDefect, Winding};
 
 /// Factors on the transverse moduli that are tabulated, within the range that is modelled.
 const MODULUS_NODES: usize = 9;
@@ -256,7 +256,7 @@ fn moved(sound: &Winding, wound: &Winding, layer: usize) -> Vec<f64> {
     along.sort_by(|a, b| a.0.total_cmp(&b.0));
     let places: Vec<f64> = along.iter().map(|p| p.0).collect();
     // both windings have the other layers' turns in one order along each half
-    let key = |t: &winding::Turn| (t.layer, t.turn, t.half == Half::Cw);
+    let key = |t: &winding::Turn| (t.layer, t.turn, t.half);
     let others: HashMap<_, usize> = sound.turns().iter().enumerate().map(|(i, t)| (key(t), i)).collect();
     let mut weights = vec![0.0; sound.turns().len()];
     for (t, weight) in wound.turns().iter().zip(wound.weights()) {

@@ -164,8 +164,7 @@ impl Target {
 
 /// A factor that is still a coil's; what is no number stays none.
 fn least(factor: f64) -> f64 {
-    const LEAST: f64 = 0.05;
-    if factor < LEAST { LEAST } else { factor }
+    factor.clamp(0.05, f64::INFINITY)
 }
 
 impl Written {
@@ -373,5 +372,7 @@ mod tests {
         assert!((mean(&time, &series, 10.0) - 0.3).abs() < 1e-9);
         // of the last 5 s
         assert!((mean(&time, &series, 5.0) - 0.6).abs() < 1e-9);
+        // late in a record no number is left between the two sides
+        assert!((mean(&[0.0, 7.0, 7.0, 10.0], &series, 10.0) - 0.3).abs() < 1e-12);
     }
 }

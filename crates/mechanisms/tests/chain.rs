@@ -87,19 +87,26 @@ fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
 }
 
 #[test]
-fn exact_a_rate_of_its_instants_and_one_of_its_rows_bend_alike() {
+fn exact_a_rate_of_its_instants_and_one_of_its_rows_change_alike() {
     // the phase of a curved dn/dT goes through the same values, whatever a reading is called
     let library = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).library().clone();
     let (time, chamber) = course();
-    let bent = [0.0, 60.0].map(|averaging| {
+    let told = [0.0, 60.0].map(|averaging| {
         let prepared = Prepared::new(&library, &time, &chamber, averaging).expect("prepared");
         assert_eq!(prepared.time(), time);
         let gyro = Gyro::new(library.clone(), CATALOGUE, vec![prepared]).expect("gyro");
-        let [nominal, with] = with_mechanism(&gyro, &design(), "thermo-optic-curvature", &[2.5e-8], None).1;
-        minus(&with[RATE], &nominal[RATE])
+        let of = |id: &str, values: &[f64], choice: Option<f64>| {
+            let [nominal, with] = with_mechanism(&gyro, &design(), id, values, choice).1;
+            minus(&with[RATE], &nominal[RATE])
+        };
+        [of("thermo-optic-curvature", &[2.5e-8], None), of("self-heating", &[0.05, 30.0], Some(1.0))]
     });
-    let (off, size) = (rms(&minus(&bent[0], &bent[1])), rms(&bent[1]));
+    let [[bent, heated], [bent_in_rows, heated_in_rows]] = told;
+    let (off, size) = (rms(&minus(&bent, &bent_in_rows)), rms(&bent_in_rows));
     assert!(size > 0.0 && off < 1e-6 * size, "{off} of {size}");
+    // so does what a heater does, once a row has one before it: a rate of the first instant alone is not known
+    let (off, size) = (rms(&minus(&heated[1..], &heated_in_rows[1..])), rms(&heated_in_rows[1..]));
+    assert!(size > 0.0 && off < 1e-6 * size && heated[0] == 0.0, "{off} of {size}, {} first", heated[0]);
 }
 
 #[test]
@@ -124,12 +131,13 @@ fn a_heater_of_the_design_s_own_follows_the_chain() {
     }
 }
 
-/// A read-out that drifts is a part of the design: nothing of it is left to be found.
+/// A read-out that drifts and a dn/dT that is curved are parts of the design: nothing of them is left to be found.
 #[test]
 fn a_drift_of_the_design_s_own_follows_the_chain() {
     let mut drifting = design();
     drifting.drifts.read_out = 0.01 / bias::units::DEG_PER_H_PER_RAD_PER_S;
     drifting.drifts.reference = 35.0;
+    drifting.drifts.thermo_optic_curvature = 2.5e-8;
     let sound = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).library().clone();
     let [with, without] = [shared::library(&drifting, &[], &|_| ()), sound].map(|library| {
         let gyro = of(library, &[]);

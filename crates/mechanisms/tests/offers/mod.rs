@@ -238,7 +238,9 @@ fn a_path_of_heat_is_not_another_one() {
     let at_work = |id: &str, value: f64| Active { mechanism: gyro.find(id).expect("offered"), values: vec![value], choice: None };
     let mounted = gyro.about(&u, &[at_work("axial-heat-path", 20.0)]).expect("a model").expect("another place");
     assert!(mounted.about(&u, &[at_work("axial-heat-path", 20.0)]).expect("a model").is_none());
+    // another one, the same further along, and none
     assert!(mounted.about(&u, &[at_work("air-path", 1.3)]).expect("a model").is_some());
+    assert!(mounted.about(&u, &[at_work("axial-heat-path", 60.0)]).expect("a model").is_some());
     assert!(mounted.about(&u, &[]).expect("a model").is_some());
 }
 

@@ -5,7 +5,7 @@ use super::{gyro, rms, shared};
 use coil::{Contact, Design, Drive, Dynamics, Heater, Mechanics, Profile, STANDARD, Side};
 use diagnosis::{Active, ForwardModel, Parameter, Prior};
 use laws::{Expression, State, System};
-use mechanisms::{Body, CATALOGUE, Gyro, Input, Mechanism, Prepared, RATE, SPOOL, Stage, Target, Written};
+use mechanisms::{Body, CATALOGUE, Gyro, Input, Library, Mechanism, Prepared, RATE, SPOOL, Stage, Target, Written};
 
 /// A mechanism with parameters a and b that sees the spool's thermometer, the coil's temperature, the rate of the former, the chamber and the time.
 fn written(states: &[(&str, &str)], target: Target, law: &str) -> Written {
@@ -42,11 +42,17 @@ fn written(states: &[(&str, &str)], target: Target, law: &str) -> Written {
 
 /// Contribution of a law to thermometer and rate, with a and b.
 fn adds(written: &Written, values: [f64; 2]) -> [Vec<f64>; 2] {
-    let (time, chamber) = super::course();
     let library = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).library().clone();
-    let prepared = Prepared::new(&library, &time, &chamber, 60.0).expect("prepared");
+    let prepared = from(&library, 0.0);
     let kinds: Vec<&dyn Mechanism> = CATALOGUE.iter().copied().chain([written as &dyn Mechanism]).collect();
     added(&Gyro::new(library, &kinds, vec![prepared]).expect("gyro"), "written", values.to_vec(), None)
+}
+
+/// A record whose first row is at so many seconds.
+fn from(library: &Library, first: f64) -> Prepared {
+    let (mut time, chamber) = super::course();
+    time.iter_mut().for_each(|t| *t += first);
+    Prepared::new(library, &time, &chamber, 60.0).expect("prepared")
 }
 
 fn added(gyro: &Gyro, id: &str, values: Vec<f64>, choice: Option<f64>) -> [Vec<f64>; 2] {
@@ -219,6 +225,11 @@ fn exact_relative_changes_are_shares_of_the_parts() {
     let parts = [Target::Shupe, Target::Axial, Target::Radial].map(|target| adds(&written(&[], target, "a"), [0.1, 0.0]));
     let sum: Vec<f64> = (0..720).map(|n| parts.iter().map(|part| part[RATE][n]).sum()).collect();
     assert!(rms(&super::minus(&sum, &all[RATE])) < 1e-9 * rms(&all[RATE]) && rms(&all[RATE]) > 0.0);
+    let library = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).library().clone();
+    for (part, designed) in parts.iter().zip(from(&library, 0.0).parts()) {
+        let tenth: Vec<f64> = designed.iter().map(|rate| 0.1 * rate).collect();
+        assert!(rms(&super::minus(&part[RATE], &tenth)) < 1e-9 * rms(&tenth));
+    }
 }
 
 #[test]
@@ -241,6 +252,17 @@ fn exact_a_law_of_thermometer_and_tail_is_what_it_says() {
     // the longer fibre, by a metre, counts for a thousandth
     let off = rms(&super::minus(&rate[1..], &tail[1..]));
     assert!(off < 2e-3 * rms(&tail) && thermometer.iter().all(|x| *x == 0.0), "{off:e} of {:e}", rms(&tail));
+}
+
+#[test]
+fn exact_a_law_s_time_begins_with_the_record() {
+    let library = gyro().lock().unwrap_or_else(std::sync::PoisonError::into_inner).library().clone();
+    let ageing = written(&[], Target::Thermometer, "a * time");
+    let later = Gyro::new(library.clone(), &[&ageing], vec![from(&library, 5000.0)]).expect("gyro");
+    let [thermometer, _] = added(&later, "written", vec![1e-4, 0.0], None);
+    let (time, _) = super::course();
+    let exact: Vec<f64> = time.iter().map(|t| 1e-4 * t).collect();
+    assert!(rms(&super::minus(&thermometer, &exact)) < 1e-12);
 }
 
 #[test]
