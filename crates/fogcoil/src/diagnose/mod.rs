@@ -16,6 +16,7 @@ mod jumped;
 mod left;
 mod lines;
 mod loose;
+mod next;
 mod report;
 mod structure;
 mod text;
