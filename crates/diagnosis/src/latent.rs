@@ -108,12 +108,12 @@ impl Fit {
             let gain = most + (gains.iter().map(|g| (g - most).exp()).sum::<f64>() / gains.len() as f64).ln();
             let best = gains.iter().position(|g| *g == most).map_or(1.0, |k| AMPLITUDES[k]);
             let left = self.after(&columns, best);
-            let mut start = 0;
+            let mut rest = left.as_slice();
             let whiteness = (0..model.channels().len())
                 .map(|c| {
                     let rows = observations.first().map_or(0, |_| self.noise.rows(0, c).len());
-                    let part = &left.as_slice()[start..start + rows];
-                    start += rows;
+                    let part;
+                    (part, rest) = rest.split_at(rows);
                     whiteness(part)
                 })
                 .collect();
@@ -164,5 +164,68 @@ impl Fit {
             // (A + I)⁻¹ A = I − (A + I)⁻¹
             resolved: member.map(|k| 1.0 - covariance[(k, k)]).collect(),
         }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::{Fitter, Hypothesis};
+    use crate::noise::Noise;
+    use crate::{Active, Channel, NoisePrior, Nuisance, Omission, State};
+
+    const ROWS: usize = 200;
+
+    /// Nothing in two channels; an input raises both.
+    struct Two {
+        channels: [Channel; 2],
+        state: State,
+    }
+
+    impl ForwardModel for Two {
+        fn channels(&self) -> &[Channel] {
+            &self.channels
+        }
+        fn nuisances(&self) -> &[Nuisance] {
+            &[]
+        }
+        fn mechanisms(&self) -> &[Omission] {
+            &[]
+        }
+        fn respond(&self, _: usize, _: &[f64], _: &[Active]) -> Result<Vec<Vec<f64>>, Failure> {
+            Ok(vec![vec![0.0; ROWS]; 2])
+        }
+        fn state(&self, _: usize) -> &State {
+            &self.state
+        }
+        fn latent(&self, _: usize) -> Result<Vec<Latent>, Failure> {
+            let ramp: Vec<f64> = (0..ROWS).map(|n| n as f64 / ROWS as f64).collect();
+            Ok(vec![Latent { stage: "one".into(), functions: vec![vec![ramp.clone(), ramp]] }])
+        }
+    }
+
+    #[test]
+    fn every_channel_of_a_stage_has_its_own_whiteness() {
+        let noise = NoisePrior::new((0.3, 1e-3), (1e-9, 1e-3), (1500.0, 1e-3), (1e-12, 1e-3));
+        let channel = Channel { name: "y".into(), unit: "1".into(), offset: (0.0, 1.0), averaging: 0.0, noise };
+        let state = State { level: vec![0.0; ROWS], rate: vec![0.0; ROWS] };
+        let two = Two { channels: [channel.clone(), channel], state };
+        let mut digits = 1_u64;
+        let mut white = || {
+            digits = digits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (digits >> 40) as f64 / f64::from(1_u32 << 24) - 0.5
+        };
+        let series = [(0..ROWS).map(|_| white()).collect::<Vec<_>>(), (0..ROWS).map(|n| (n as f64 / 5.0).sin()).collect()];
+        for waves in [0, 1] {
+            let channels = vec![series[1 - waves].clone(), series[waves].clone()];
+            let observed = [Observation { time: (0..ROWS).map(|n| 60.0 * n as f64).collect(), channels }];
+            let typical = Noise::typical(two.channels(), &observed).expect("noise");
+            let fitter = Fitter::new(&two, &[0], &observed).expect("a fitter");
+            let fit = fitter.fit(&Hypothesis::NOMINAL, &typical, None).expect("a fit");
+            let stages = fit.stages(&two, &[0], &observed).expect("stages");
+            let [first, second] = stages[0].whiteness[..] else { panic!("two channels") };
+            let (even, wavy) = if waves == 1 { (first, second) } else { (second, first) };
+            assert!(even > 0.05 && wavy < 1e-6, "{first} {second}");
+        }
     }
 }

@@ -62,7 +62,7 @@ fn discoveries(p: &[f64]) -> Vec<bool> {
 }
 
 /// Probability that noise has a larger sum of products of neighbours at 30 lags, from whitened values ([`recording::statistics::whiteness`]);
-/// NaN for fewer than twice as many.
+/// NaN for no more than twice as many.
 pub fn whiteness(whitened: &[f64]) -> f64 {
     const LAGS: usize = 30;
     let enough = (whitened.len() > 2 * LAGS).then_some(whitened);
@@ -222,3 +222,18 @@ impl Fit {
 
 /// Frequencies of a [`Spectrum`].
 pub const FREQUENCIES: usize = 32;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_tell_whether_they_are_white_where_they_are_more_than_twice_as_many_as_the_lags() {
+        let wave = |count: usize| (0..count).map(|n| (n as f64 / 7.0).sin()).collect::<Vec<_>>();
+        for (count, expected) in [(31, false), (45, false), (60, false), (61, true), (300, true)] {
+            let found = whiteness(&wave(count));
+            assert_eq!(!found.is_nan(), expected, "{count}");
+            assert!(!expected || found < 1e-3, "{count}: {found}");
+        }
+    }
+}

@@ -182,4 +182,22 @@ mod tests {
             assert!((quantile(&prior, &two, share) - prior.value(u)).abs() < 1e-9);
         }
     }
+
+    /// The same of one that is a third as likely: of the upper one, which has a quarter of all, a fifth lies beyond an end, of the lower one a fifteenth.
+    #[test]
+    fn exact_a_minimum_has_its_share_of_an_interval() {
+        let at = |u: f64, log_evidence: f64| {
+            let mut candidate = choosing(u, 0.0, 0.8);
+            candidate.fit.hypothesis.mechanisms = vec![(0, None)];
+            candidate.fit.active[0].choice = None;
+            candidate.fit.log_evidence = log_evidence;
+            candidate
+        };
+        let mut model = library(&[true, true]);
+        model.0[0].parameters = vec![Parameter::new("size", PRIOR)];
+        let (best, other) = (at(0.0, 50.0), at(1.0, 50.0 - 3.0_f64.ln()).fit);
+        let [found] = &estimates(&model, &[best], &[other], 0)[..] else { panic!("a size") };
+        let [low, high] = [1.0 / 15.0, 0.8].map(recording::statistics::normal_quantile);
+        near(found.ci90, [low * NARROW, 1.0 + high * NARROW].map(|u| PRIOR.value(u)));
+    }
 }

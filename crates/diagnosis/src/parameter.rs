@@ -174,4 +174,22 @@ mod tests {
         assert!(prior.value(prior.standard(7.0)) <= 1.0 && prior.value(prior.standard(-7.0)) >= 0.0);
         assert!(Prior::LogNormal { median: 1.0, spread: 1.0 }.standard(-1.0).is_finite());
     }
+
+    #[test]
+    fn a_slope_is_that_of_the_value_as_far_as_it_is_considered_and_none_beyond() {
+        for prior in [
+            Prior::Normal { mean: 3.0, sd: 0.2 },
+            Prior::Size { scale: 0.7 },
+            Prior::LogNormal { median: 5e-4, spread: 1.3 },
+            Prior::Uniform { low: -40.0, high: 60.0 },
+        ] {
+            for u in [-7.0, -1.0, 0.0, 0.3, 2.5, 7.0] {
+                let by = 1e-4;
+                let slope = (prior.value(u + by) - prior.value(u - by)) / (2.0 * by);
+                assert!((prior.slope(u) - slope).abs() < 1e-6 * (1.0 + slope.abs()), "{prior:?} at {u}");
+            }
+            assert!([-MOST, MOST].iter().all(|u| prior.slope(*u) > 0.0), "{prior:?} at the ends");
+            assert!([-9.0, 8.1, 20.0].iter().all(|u| prior.slope(*u) == 0.0), "{prior:?} beyond");
+        }
+    }
 }

@@ -98,3 +98,31 @@ impl Fit {
         choice.into_iter().chain(own.map(|p| Estimate { value: p.value(), ci90: p.ci90(), name: p.name })).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::{candidate, library};
+    use crate::{Active, Nuisance, Parameter};
+    use nalgebra::DMatrix;
+
+    /// Of a parameter beyond all that is considered the value stays where it is, whatever a constant does.
+    #[test]
+    fn nothing_is_carried_along_where_the_value_does_not_change() {
+        let mut model = library(&[true]);
+        model.0[0].parameters = vec![Parameter::new("size", Prior::Normal { mean: 0.0, sd: 1.0 })];
+        model.1 = vec![Nuisance::normal("constant", 0.0, 1.0, Role::Constant)];
+        let active = Active { mechanism: 0, values: vec![8.0], choice: None };
+        assert!(model.carries(0, &active).is_empty());
+        for u in [1.0, 8.0, 8.5] {
+            let fit = Fit {
+                active: vec![active.clone()],
+                layout: vec![Unknown::Nuisance { number: 0, record: None }, Unknown::Mechanism { place: 0, parameter: 0 }],
+                u: DVector::from_vec(vec![0.5, u]),
+                covariance: DMatrix::from_row_slice(2, 2, &[4.0, 0.1, 0.1, 0.09]),
+                ..candidate(&[0], 1.0).fit
+            };
+            assert!((fit.deviation(&model, 1) - 0.3).abs() < 1e-12, "{}", fit.deviation(&model, 1));
+        }
+    }
+}

@@ -26,6 +26,11 @@ pub struct Rival {
 /// matter.
 const AMPLITUDES: [f64; 4] = [0.3, 1.0, 3.0, 10.0];
 
+/// Duration of a record \[s\].
+fn span(time: &[f64]) -> f64 {
+    time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first)
+}
+
 /// ln of the mean of e^x, each with its share.
 fn log_mean_exp(values: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
     let most = values.clone().fold(f64::NEG_INFINITY, |m, v| m.max(v.0));
@@ -66,7 +71,7 @@ impl Fit {
     /// Gain of ln evidence of each structure in each channel, best first.
     pub(crate) fn rivals(&self, model: &dyn ForwardModel, records: &[usize], times_of: &[&[f64]]) -> Vec<Rival> {
         let states = || records.iter().map(|r| model.state(*r));
-        let spans = || times_of.iter().map(|time| time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first));
+        let spans = || times_of.iter().map(|time| span(time));
         let reach = Reach {
             level: range(states().flat_map(|s| &s.level)),
             rate: range(states().flat_map(|s| &s.rate)),
@@ -130,5 +135,15 @@ impl Fit {
             columns.push(DVector::from_vec(column));
         }
         (!columns.is_empty()).then(|| DMatrix::from_columns(&columns))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_record_lasts_as_long_wherever_its_clock_begins() {
+        assert_eq!([&[][..], &[7.0], &[0.0, 30.0, 60.0], &[500.0, 530.0, 560.0]].map(span), [0.0, 0.0, 60.0, 60.0]);
     }
 }

@@ -353,3 +353,158 @@ fn leader(
     let noise = best.noise.refitted(model.channels(), observations, &best.residuals)?;
     Ok(Led { fit: Fit { noise, ..best.clone() }, gain, rivals })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Active, Channel, Failure, NoisePrior, Omission, Parameter, Prior, State};
+    use std::cell::RefCell;
+
+    const ROWS: usize = 100;
+    const WHITE: f64 = 0.1;
+
+    /// A constant with a column of its own, and mechanisms with columns that are the more alike the nearer their places are.
+    struct Places {
+        channels: Vec<Channel>,
+        constant: [Nuisance; 1],
+        mechanisms: Vec<Omission>,
+        state: State,
+        /// The constant, the mechanism and its size, of every response that was asked for with a mechanism.
+        asked: RefCell<Vec<(f64, usize, f64)>>,
+    }
+
+    /// A place beyond all rows.
+    const NOWHERE: f64 = f64::INFINITY;
+
+    fn column(place: f64) -> impl Iterator<Item = f64> {
+        let of = move |n: usize| ((n as f64 - place) / 10.0).powi(2);
+        (0..ROWS).map(move |n| (-of(n)).exp())
+    }
+
+    impl Places {
+        fn new(places: &[f64]) -> Self {
+            let noise = NoisePrior::new((WHITE, 1e-4), (1e-9, 1e-4), (1000.0, 1e-4), (1e-9, 1e-4));
+            let mechanism = |place: &f64| Omission {
+                id: place.to_string(),
+                stage: "any".into(),
+                parameters: vec![Parameter::new("size", Prior::Normal { mean: 0.0, sd: 1.0 })],
+                choice: None,
+                starts: vec![vec![0.5]],
+                named: true,
+                weight: 1.0,
+            };
+            Self {
+                channels: vec![Channel { name: "y".into(), unit: "1".into(), offset: (0.0, 1e-6), averaging: 0.0, noise }],
+                constant: [Nuisance::normal("constant", 0.0, 1.0, Role::Constant)],
+                mechanisms: places.iter().map(mechanism).collect(),
+                state: State { level: vec![0.0; ROWS], rate: vec![0.0; ROWS] },
+                asked: RefCell::default(),
+            }
+        }
+
+        fn all(&self) -> Vec<Hypothesis> {
+            candidates(self, true)
+        }
+
+        /// Whether a mechanism was asked for at its start beside the constant of the drawing.
+        fn began_anew(&self) -> bool {
+            self.asked.borrow().iter().any(|(constant, _, size)| (*constant, *size) == (0.0, 0.5))
+        }
+    }
+
+    impl ForwardModel for Places {
+        fn channels(&self) -> &[Channel] {
+            &self.channels
+        }
+        fn nuisances(&self) -> &[Nuisance] {
+            &self.constant
+        }
+        fn mechanisms(&self) -> &[Omission] {
+            &self.mechanisms
+        }
+        fn respond(&self, _: usize, constant: &[f64], active: &[Active]) -> Result<Vec<Vec<f64>>, Failure> {
+            let mut y: Vec<f64> = (0..ROWS).map(|n| if n < ROWS / 10 { constant[0] } else { 0.0 }).collect();
+            for Active { mechanism, values, .. } in active {
+                self.asked.borrow_mut().push((constant[0], *mechanism, values[0]));
+                let place: f64 = self.mechanisms[*mechanism].id.parse()?;
+                y.iter_mut().zip(column(place)).for_each(|(y, x)| *y += values[0] * x);
+            }
+            Ok(vec![y])
+        }
+        fn state(&self, _: usize) -> &State {
+            &self.state
+        }
+    }
+
+    /// A constant of 0.4, a mechanism at 50 of this size, and what is like noise.
+    fn observed(size: f64) -> [Observation; 1] {
+        let of =
+            |(n, x): (usize, f64)| size * x + if n < ROWS / 10 { 0.4 } else { 0.0 } + 1.4 * WHITE * (0.7 * (n * n) as f64).sin();
+        let y = column(50.0).enumerate().map(of).collect();
+        [Observation { time: (0..ROWS).map(|n| 30.0 * n as f64).collect(), channels: vec![y] }]
+    }
+
+    fn way<'a>(model: &'a Places, observations: &'a [Observation]) -> Way<'a, Places> {
+        let (about, known, only, rivals) = (None, None, None, Vec::new());
+        Way { model, records: &[0], observations, about, known, only, rivals, rounds: 0, arrived: false }
+    }
+
+    #[test]
+    fn who_leads_begins_anew_and_is_compared_until_two_rounds_are_gone() {
+        let (places, observed) = (Places::new(&[50.0, 53.0]), observed(1.0));
+        let mut way = way(&places, &observed);
+        for round in 0..4 {
+            way.arrived = false;
+            places.asked.borrow_mut().clear();
+            way.go_on(true).expect("a fit");
+            let other = places.asked.borrow().iter().any(|(_, mechanism, _)| *mechanism == 1);
+            assert_eq!((places.began_anew(), other), (round < TRIED, round < TRIED), "round {round}");
+        }
+        assert!(way.known.expect("a fit").hypothesis.has(0));
+    }
+
+    #[test]
+    fn a_model_that_is_good_is_arrived_at_once_with_constants_alone_and_after_two_rounds_beside_mechanisms() {
+        let (places, observed) = (Places::new(&[50.0, 53.0]), observed(1.0));
+        let mut alone = way(&places, &observed);
+        alone.go_on(false).expect("a fit");
+        assert!(alone.arrived);
+        let mut beside = way(&places, &observed);
+        let arrived = [1, 2].map(|_| {
+            beside.go_on(true).expect("a fit");
+            beside.arrived
+        });
+        assert_eq!(arrived, [false, true]);
+    }
+
+    #[test]
+    fn what_is_known_is_compared_only_where_it_is_asked_for() {
+        let (places, observed) = (Places::new(&[50.0, 60.0]), observed(1.0));
+        let of = |known: Option<&Fit>, among: &[Hypothesis]| {
+            leader(&places, &[0], &observed, known, (among, false)).expect("a fit").fit
+        };
+        let known = of(None, &places.all());
+        assert!(known.hypothesis.has(0));
+        assert!(of(Some(&known), &places.all()).hypothesis.has(0));
+        assert!(of(Some(&known), &places.all()[1..]).hypothesis.has(1));
+    }
+
+    #[test]
+    fn rivals_gain_more_than_a_half_of_what_the_leader_does() {
+        // of the leader's gain they have about nine tenths, six tenths, three tenths and nothing
+        let (places, observed) = (Places::new(&[50.0, 53.0, 57.0, 61.0, 90.0]), observed(1.0));
+        let all = places.all();
+        let led = leader(&places, &[0], &observed, None, (&all, true)).expect("a fit");
+        assert!(led.fit.hypothesis.has(0) && led.gain > 50.0, "{}", led.gain);
+        assert_eq!(led.rivals, all[1..3]);
+    }
+
+    /// In a record of noughts nothing is rounded: what does nothing is exactly as likely as the constants alone.
+    #[test]
+    fn exact_what_does_nothing_does_not_lead() {
+        let places = Places::new(&[NOWHERE]);
+        let noughts = [Observation { channels: vec![vec![0.0; ROWS]], ..observed(0.0)[0].clone() }];
+        let led = leader(&places, &[0], &noughts, None, (&places.all(), true)).expect("a fit");
+        assert_eq!((led.fit.hypothesis, led.gain), (Hypothesis::RECALIBRATED, 0.0));
+    }
+}

@@ -266,4 +266,35 @@ mod tests {
             assert!((at(2.0 * after) - (-2.0_f64).exp()).abs() < 1e-12);
         }
     }
+
+    #[test]
+    fn exact_steps_are_tried_evenly_in_every_record_wherever_its_clock_begins() {
+        let clock = |begins: f64, rows: u32| (0..rows).map(|n| begins + 10.0 * f64::from(n)).collect::<Vec<_>>();
+        // 4800 s and 9600 s; of a residual of a single row there are no jumps
+        let times = [clock(1000.0, 481), clock(-700.0, 961)];
+        let reach = Reach { level: [0.0; 2], rate: [0.0; 2], longest: 9600.0, together: 14_400.0 };
+        let found = steps(&[&times[0], &times[1]], &[&[0.0], &[0.0]], &reach);
+        assert!(found.len() == 2 && found.iter().all(|of_record| of_record.len() == 2 * 47));
+        for k in 0..47 {
+            let after = f64::from(k as u32 + 1);
+            let [first, second] = [found[0][k], found[1][47 + k]];
+            assert_eq!((first.at, second.at), (Some(1000.0 + 100.0 * after), Some(-700.0 + 200.0 * after)));
+            // it is in one of them
+            assert_eq!((found[1][k].at, found[0][47 + k].at), (None, None));
+            assert!((second.share / first.share - 2.0).abs() < 1e-12);
+        }
+        let together: f64 = found[0].iter().map(|jump| jump.share).sum();
+        assert!((together - 0.5).abs() < 1e-12, "{together}");
+    }
+
+    #[test]
+    fn nothing_is_periodic_in_a_level_that_never_moves() {
+        let time = [0.0, 10.0, 20.0];
+        let state = State { level: vec![20.0; 3], rate: vec![0.0; 3] };
+        let of = |level: [f64; 2]| {
+            let reach = Reach { level, rate: [0.0; 2], longest: 20.0, together: 20.0 };
+            bases(Structure::PeriodicInLevel, &time, &state, &reach, &[]).len()
+        };
+        assert_eq!((of([20.0, 20.0]), of([f64::NAN, 20.0]), of([15.0, 20.0])), (0, 0, CYCLES_STEPS + 1));
+    }
 }

@@ -34,8 +34,7 @@ impl Fitter<'_> {
                 // a wide one beside a narrow one is another
                 let is_apart =
                     |other: &Fit| (fit.u[at] - other.u[at]).abs() > APART * deviation(&fit, at).min(deviation(other, at));
-                let counts = fit.log_evidence - best.log_evidence > LEAST.ln();
-                if counts && std::iter::once(best).chain(&found).all(is_apart) {
+                if counts(&fit, best) && std::iter::once(best).chain(&found).all(is_apart) {
                     found.push(fit);
                 }
             }
@@ -44,6 +43,27 @@ impl Fitter<'_> {
     }
 }
 
+/// Whether a minimum holds enough beside the best to be told.
+fn counts(fit: &Fit, best: &Fit) -> bool {
+    fit.log_evidence - best.log_evidence > LEAST.ln()
+}
+
 fn deviation(fit: &Fit, at: usize) -> f64 {
     fit.covariance[(at, at)].max(0.0).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::candidate;
+
+    #[test]
+    fn a_minimum_of_more_than_a_hundredth_of_the_best_counts() {
+        let of = |log_evidence: f64| Fit { log_evidence, ..candidate(&[0], 1.0).fit };
+        for best in [-300.0, 0.0, 300.0] {
+            for (share, expected) in [(2.0_f64, true), (1.0, true), (0.011, true), (0.009, false), (1e-9, false)] {
+                assert_eq!(counts(&of(best + share.ln()), &of(best)), expected, "{share} beside {best}");
+            }
+        }
+    }
 }

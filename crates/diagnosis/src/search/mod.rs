@@ -3,6 +3,7 @@
 //! [`singles`] fits every mechanism alone and gives those that matter noise of their own; [`pairs`] looks for what may stand beside them. [`agreed`] does it under the model that is good about the result.
 
 mod agreed;
+mod columns;
 mod pairs;
 mod settings;
 mod singles;

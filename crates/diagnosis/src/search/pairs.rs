@@ -50,10 +50,7 @@ impl Pool<'_> {
     /// ln of the number of choices for which a single mechanism's best one stands: those that explain nearly as much.
     fn kin(&self, fit: &Fit) -> f64 {
         let mechanism = fit.hypothesis.mechanisms[0].0;
-        let alone = |c: &&Candidate| {
-            let Hypothesis { mechanisms, constants_free } = &c.fit.hypothesis;
-            c.rival.is_none() && *constants_free && matches!(mechanisms[..], [one] if one.0 == mechanism)
-        };
+        let alone = |c: &&Candidate| matches!(c.fit.hypothesis.mechanisms[..], [one] if one.0 == mechanism);
         let likeness = |c: &Candidate| (c.fit.log_evidence - fit.log_evidence).min(0.0).exp();
         self.candidates.iter().filter(alone).map(likeness).sum::<f64>().max(1.0).ln()
     }
@@ -67,7 +64,7 @@ impl Pool<'_> {
             if second == first.0 || !self.named(second) {
                 continue;
             }
-            let every = if hypotheses.len() > CHOICES { hypotheses.len().div_ceil(CHOICES) } else { 1 };
+            let every = hypotheses.len().div_ceil(CHOICES);
             let kin = (hypotheses.len() as f64 / hypotheses.len().div_ceil(every) as f64).ln();
             let pair = |h: &Hypothesis| Hypothesis { mechanisms: vec![first, h.mechanisms[0]], constants_free: true };
             let known = |pair: &Hypothesis| self.candidates.iter().any(|c| same(&c.fit.hypothesis, pair));

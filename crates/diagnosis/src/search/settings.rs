@@ -63,3 +63,44 @@ impl Settings {
         (base * if rival { self.unknown * KIND / structures } else { 1.0 }).ln()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::library;
+    use crate::{Channel, NoisePrior, Nuisance};
+
+    const SETTINGS: Settings = Settings { none: 0.3, recalibrate: 0.1, single: 0.4, pair: 0.05, unknown: 0.15, excluded: 0.03 };
+
+    /// Prior probabilities of the nominal model and of the re-estimated one, with numbers of these roles.
+    fn of_the_design(roles: &[Role]) -> [f64; 2] {
+        let mut model = library(&[true]);
+        model.1 = roles.iter().map(|role| Nuisance::normal("number", 0.0, 1.0, *role)).collect();
+        [Hypothesis::NOMINAL, Hypothesis::RECALIBRATED].map(|of| SETTINGS.log_prior(&model, &of, false).exp())
+    }
+
+    #[test]
+    fn constants_that_there_are_have_a_probability_of_their_own() {
+        for roles in [&[Role::Constant][..], &[Role::Sensor, Role::Constant]] {
+            let found = of_the_design(roles);
+            assert!(found.iter().zip([0.3, 0.1]).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
+        }
+        // without, the nominal model has it
+        for roles in [&[][..], &[Role::Sensor, Role::ModelError]] {
+            assert!((of_the_design(roles)[0] - 0.4).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_third_of_the_unknown_is_shared_by_all_structures_in_all_channels() {
+        let noise = NoisePrior::new((1.0, 1.0), (0.1, 1.0), (1000.0, 1.0), (0.1, 1.0));
+        let channel = Channel { name: "y".into(), unit: "1".into(), offset: (0.0, 1.0), averaging: 0.0, noise };
+        for channels in [1, 2, 3] {
+            let mut model = library(&[true]);
+            model.2 = vec![channel.clone(); channels];
+            let of = |rival: bool| SETTINGS.log_prior(&model, &Hypothesis::NOMINAL, rival).exp();
+            let together = of(true) / of(false) * (Structure::ALL.len() * channels) as f64;
+            assert!((together - 0.05).abs() < 1e-12, "{channels}: {together}");
+        }
+    }
+}

@@ -13,6 +13,11 @@ const LEADS: f64 = 0.5;
 /// Gain of ln evidence of a round after which all are fitted once more, in the noise that the new leader leaves.
 const ONCE_MORE: f64 = 3.0;
 
+/// Whether the best fit of a round that has gained so much ln evidence leads from there on.
+fn takes_the_lead(round: usize, gained: f64) -> bool {
+    round == 0 || gained > LEADS
+}
+
 impl Pool<'_> {
     /// The leader with its own noise, and all fits under the noise of the leader before it, best first.
     pub(super) fn singles(&self, nominal: &Fit) -> Result<(Fit, Vec<Fit>), Error> {
@@ -28,7 +33,7 @@ impl Pool<'_> {
             let fits = self.round(round, &leader, &before)?;
             let best = self.fitter.fit_with_noise(&fits[0].hypothesis, &fits[0], 2)?;
             let gained = best.log_evidence - if round == 0 { nominal.log_evidence } else { leader.log_evidence };
-            if round == 0 || gained > LEADS {
+            if takes_the_lead(round, gained) {
                 leader = best;
             }
             round += 1;
@@ -82,5 +87,17 @@ impl Pool<'_> {
         }
         sort(&mut leaders);
         Ok(leaders)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_best_of_the_first_round_leads_and_later_ones_where_they_are_clearly_likelier() {
+        let gains = [-5.0, 0.0, 0.9 * LEADS, 1.1 * LEADS, 50.0];
+        assert_eq!(gains.map(|gained| takes_the_lead(0, gained)), [true; 5]);
+        assert_eq!(gains.map(|gained| takes_the_lead(1, gained)), [false, false, false, true, true]);
     }
 }

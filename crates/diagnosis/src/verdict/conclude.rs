@@ -5,8 +5,6 @@ use super::{Diagnosis, Verdict};
 use crate::fit::{Fit, Fitter, Hypothesis};
 use crate::{Candidate, Error, ForwardModel, Settings};
 
-/// Probability of the design, as it is or with its constants re-estimated, from which nothing is called a finding: odds of about 2 to 1.
-const SUFFICES: f64 = 0.65;
 /// Least gain of ln evidence over the design and its constants of anything that is called a finding: strong evidence on the scale of Kass and
 /// Raftery (1995). Were there but one finding to look for, the design would show such a ratio by chance at most once in twenty times (Markov's
 /// inequality); for the choice among many their prior probabilities pay.
@@ -44,9 +42,7 @@ impl Diagnosis {
         let likelier = elsewhere.iter().max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence));
         if let Some(other) = likelier.filter(|other| other.log_evidence - best.log_evidence > LIKELIER) {
             let other = Fit::better(Some(other.clone()), fitter.fit_with_noise(&other.hypothesis, other, 2)?);
-            let first = &mut candidates[0];
-            first.log_weight += other.log_evidence - first.fit.log_evidence;
-            first.fit = other;
+            refit(&mut candidates[0], other);
             return Self::conclude(fitter, settings, candidates, nominal);
         }
         let parameters =
@@ -56,6 +52,12 @@ impl Diagnosis {
         let excluded = settings.excluded;
         Ok(Self { verdict, mechanisms, set, parameters, nominal, mismatch, stages, verdicts, excluded, candidates })
     }
+}
+
+/// Gives a candidate another fit of its hypothesis, as likely beforehand.
+fn refit(candidate: &mut Candidate, fit: Fit) {
+    candidate.log_weight += fit.log_evidence - candidate.fit.log_evidence;
+    candidate.fit = fit;
 }
 
 /// Sorts candidates by their weights, best first, and turns the weights into probabilities.
@@ -139,7 +141,7 @@ fn kind(model: &dyn ForwardModel, candidate: &Candidate) -> Verdict {
 fn decide([none, recalibrate, explained, unknown]: [f64; 4], gain: f64) -> Verdict {
     let design = none + recalibrate;
     // never a finding while the design is likelier
-    if design > SUFFICES || design >= explained.max(unknown) || gain < FINDING {
+    if design >= explained.max(unknown) || gain < FINDING {
         if none >= recalibrate { Verdict::None } else { Verdict::Recalibrate }
     } else if unknown > explained {
         Verdict::Unknown
@@ -271,5 +273,17 @@ mod tests {
         lead(&model, &mut candidates, Verdict::Explained, &mechanisms);
         let leads = &candidates[0];
         assert_eq!((leads.fit.hypothesis.numbers(), leads.probability), (vec![0, 2], 0.15));
+    }
+
+    #[test]
+    fn another_fit_of_a_candidate_weighs_what_it_is_likelier_and_is_as_likely_beforehand() {
+        let rival = Some(Rival { structure: Structure::Step, channel: 0, at: None, gain: 3.0 });
+        let mut refitted = Candidate { rival, log_weight: -101.0, ..candidate(&[0], 0.5) };
+        refitted.fit.log_evidence = -100.0;
+        let before = refitted.log_prior();
+        let likelier = Fit { log_evidence: -90.0, offsets: vec![vec![2.0]], ..refitted.fit.clone() };
+        refit(&mut refitted, likelier);
+        assert_eq!((refitted.log_weight, refitted.log_prior()), (-91.0, before));
+        assert_eq!((refitted.fit.log_evidence, refitted.fit.offsets[0][0]), (-90.0, 2.0));
     }
 }

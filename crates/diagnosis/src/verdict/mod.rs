@@ -7,7 +7,6 @@ mod conclude;
 mod judge;
 mod set;
 mod unlisted;
-#[cfg(test)]
 mod waves;
 
 pub use judge::{Contradiction, Judged, Judgement, Ruling, SURE};

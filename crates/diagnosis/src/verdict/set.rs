@@ -64,8 +64,8 @@ pub(super) mod tests {
     use crate::noise::Noise;
     use crate::{Active, Channel, Nuisance, Omission, State};
 
-    /// A library alone: mechanisms with or without a name.
-    pub(crate) struct Library(pub(crate) Vec<Omission>);
+    /// A library alone: mechanisms with or without a name, constants and channels.
+    pub(crate) struct Library(pub(crate) Vec<Omission>, pub(crate) Vec<Nuisance>, pub(crate) Vec<Channel>);
 
     pub(crate) fn library(named: &[bool]) -> Library {
         let of = |(n, named): (usize, &bool)| Omission {
@@ -77,15 +77,15 @@ pub(super) mod tests {
             named: *named,
             weight: 1.0,
         };
-        Library(named.iter().enumerate().map(of).collect())
+        Library(named.iter().enumerate().map(of).collect(), Vec::new(), Vec::new())
     }
 
     impl ForwardModel for Library {
         fn channels(&self) -> &[Channel] {
-            &[]
+            &self.2
         }
         fn nuisances(&self) -> &[Nuisance] {
-            &[]
+            &self.1
         }
         fn mechanisms(&self) -> &[Omission] {
             &self.0
@@ -157,5 +157,16 @@ pub(super) mod tests {
         };
         assert_eq!(set(&[true], &with(0.0008)), []);
         assert_eq!(set(&[true], &with(0.0010)), [0]);
+    }
+
+    #[test]
+    fn what_stands_in_a_pair_is_a_member_where_the_pair_loses_by_leaving_it_out() {
+        let with = |pair: f64, alone: f64| {
+            set(&[true; 3], &[candidate(&[2], 0.8), candidate(&[0, 1], pair), candidate(&[0], alone), candidate(&[], 0.02)])
+        };
+        assert_eq!(with(0.1, 0.02), [2, 0, 1]);
+        // as likely without
+        assert_eq!(with(0.07, 0.07), [2, 0]);
+        assert_eq!(with(0.06, 0.08), [2, 0]);
     }
 }

@@ -144,4 +144,15 @@ mod tests {
             assert!((diagnosis.verdicts().iter().sum::<f64>() - 1.0).abs() < 1e-6);
         }
     }
+
+    #[test]
+    fn what_the_leader_gains_on_held_out_records_counts_for_all_candidates() {
+        let of = |by_noise: f64, by_held_out: f64| {
+            let mut diagnosis = explained();
+            diagnosis.weigh_unlisted(12.0, &[], by_noise, by_held_out);
+            diagnosis.verdicts()[3]
+        };
+        assert_eq!(of(0.0, 3.0), of(3.0, 0.0));
+        assert!(of(0.0, 0.0) > 0.85 && of(0.0, 3.0) < 0.3 && of(0.0, -3.0) > 0.99);
+    }
 }

@@ -1,5 +1,7 @@
 //! Diagnoses of waves in readings without noise, judged by a record that was held out.
 
+#![cfg(test)]
+
 use super::{Candidate, Diagnosis, Judgement, Ruling, Verdict};
 use crate::fit::{Fitter, Hypothesis};
 use crate::noise::Noise;
