@@ -97,7 +97,7 @@ fn named(name: &str, y: &str, names: &[String], x: &str, series: &[Series]) -> M
 /// A map's cells, its upper row first.
 fn cells(name: &str, y: &str, x: &str, map: &HeatMap) -> Markup {
     let (columns, rows) = (map.columns.max(1), map.values.len() / map.columns.max(1));
-    let [across, down] = [columns.div_ceil(MOST_CELLS[0]), rows.div_ceil(MOST_CELLS[1])];
+    let [across, down] = [columns.div_ceil(MOST_CELLS[0]), rows.div_ceil(MOST_CELLS[1]).max(1)];
     let middle = |[low, high]: [f64; 2], k: usize, count: usize| low + (high - low) * (k as f64 + 0.5) / count as f64;
     let corner = format!("{y} \\ {x}");
     let chosen = || (0..columns).step_by(across);

@@ -56,12 +56,12 @@ const hand = root => {
     const right = scale([0, width], x[0], x[1]), up = scale([height, 0], y[0], y[1]);
     const lines = [...plot.querySelectorAll('[data-name]')].map(group => {
       const path = group.querySelector('path.line'), own = path ? path.getAttribute('d') : group.dataset.points;
-      const pixels = (own.match(/[-.\d]+ [-.\d]+/g) || []).map(numbers);
+      const pixels = (own.match(/[-.\d]+ [-.\d]+/g) || []).map(numbers), moves = own.match(/[ML]/g) || [];
       const points = pixels.map(([a, b]) => [right(a), up(b)]);
       const marks = [...group.children].filter(mark => mark !== path);
       // a line that turns back has no one value at a place, and a guide none of its own
       const read = path && !path.classList.contains('guide') && points.length > 1 && points.every(([a], n) => !n || a >= points[n - 1][0]);
-      return { group, name: group.dataset.name, path, own, pixels, points, marks, read };
+      return { group, name: group.dataset.name, path, own, moves, pixels, points, marks, read };
     });
     const texts = [...plot.children].filter(child => child.tagName === 'text'), font = parseFloat(plot.ownerSVGElement.getAttribute('font-size'));
     const ticks = texts.filter(t => t.getAttribute('text-anchor') === 'end' || +t.getAttribute('y') < height + 2 * font);
@@ -116,7 +116,7 @@ const hand = root => {
         const right = scale(across, 0, width), up = scale(high, height, 0), place = ([a, b]) => [right(a), up(b)];
         panel.lines.forEach(line => {
           line.group.style.display = hidden.has(line.name) ? 'none' : '';
-          if (line.path) line.path.setAttribute('d', view ? line.points.map((p, k) => (k ? 'L' : 'M') + place(p).map(v => v.toFixed(1)).join(' ')).join('') : line.own);
+          if (line.path) line.path.setAttribute('d', view ? line.points.map((p, k) => line.moves[k] + place(p).map(v => v.toFixed(1)).join(' ')).join('') : line.own);
           line.marks.forEach((mark, k) => mark.setAttribute('transform', `translate(${place(line.points[k]).map((v, of) => (v - line.pixels[k][of]).toFixed(1)).join(' ')})`));
         });
         panel.shown.forEach(t => t.remove());

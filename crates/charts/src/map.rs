@@ -38,8 +38,11 @@ impl Colours {
         Self { label: label.into(), range: [-most, most], stops: &DIVERGING, reversed: false }
     }
 
-    /// Colours from dark near 0 to bright for a range of one sign, diverging about 0 if the values lie on both sides of it; at least `least` wide.
-    pub fn of(label: impl Into<String>, [low, high]: [f64; 2], least: f64) -> Self {
+    /// Colours from dark near 0 to bright for a range of one sign, diverging about 0 if the values lie on both sides of it; at least `least` wide. Ends that are no
+    /// numbers count as 0.
+    pub fn of(label: impl Into<String>, ends: [f64; 2], least: f64) -> Self {
+        // of no numbers there are none to tell apart
+        let [low, high] = if ends.iter().all(|end| end.is_finite()) { ends } else { [0.0; 2] };
         // a hundredth on the other side is no reason to give half the colours to it
         if low.min(-high) < 0.0 && (-low).min(high) > 0.01 * (-low).max(high) {
             return Self::diverging(label, (-low).max(high), least);
@@ -126,7 +129,7 @@ pub struct HeatMap {
     pub colours: Colours,
     /// Whether the colour bar is drawn with it.
     pub bar: bool,
-    /// Numbers of the cells that stand out, in the order of the values; each carries a dot.
+    /// Numbers of the cells that stand out, in the order of the values; each carries a dot. What is no cell's number has none.
     pub marked: Vec<usize>,
     /// Rectangles that are outlined, by their ends along x and along y.
     pub outlines: Vec<[[f64; 2]; 2]>,
@@ -155,7 +158,7 @@ impl HeatMap {
     /// A dot in the middle of each cell that stands out, in a box of `width` × `height`.
     pub(crate) fn dots(&self, svg: &mut Svg, [width, height]: [f64; 2]) {
         let (columns, rows) = (self.columns.max(1), self.rows().max(1));
-        for cell in &self.marked {
+        for cell in self.marked.iter().filter(|cell| **cell < columns * self.rows()) {
             let (x, y) = ((cell % columns) as f64 + 0.5, (rows - 1 - cell / columns) as f64 + 0.5);
             let (x, y) = (x * width / columns as f64, y * height / rows as f64);
             svg.leaf("circle", attributes! { "class": "dot", "cx": "{x:.1}", "cy": "{y:.1}", "r": "3.5" });
@@ -212,6 +215,32 @@ mod tests {
         let still = Colours::of("", [3.0, 3.0], 1.0);
         assert_eq!((still.range, still.step(3.0)), ([2.5, 3.5], STEPS / 2));
         assert_eq!(Colours::of("", [0.0, 0.0], 1.0).range, [-0.5, 0.5]);
+    }
+
+    #[test]
+    fn a_map_without_cells_or_with_marks_beyond_them_is_drawn() {
+        let figure = |values: Vec<f64>| {
+            let colours = Colours::of("", [f64::NAN; 2], 1.0);
+            let map = HeatMap {
+                columns: 2,
+                values,
+                x: [0.0, 1.0],
+                y: [0.0, 1.0],
+                colours,
+                bar: true,
+                marked: vec![99],
+                outlines: Vec::new(),
+            };
+            let [x, y] = ["x", "y"].map(|label| crate::Axis::tight(label, 1e-3));
+            let panels = vec![crate::Panel::map(x, y, crate::Height::Lines(8.0), map)];
+            let text = String::new;
+            crate::Figure { id: "m", title: text(), description: text(), caption: text(), columns: 1, panels }
+        };
+        for values in [vec![], vec![1.0, 2.0]] {
+            let figure = figure(values);
+            let drawn = figure.document() + &figure.element().into_string();
+            assert!(!drawn.contains("NaN") && !drawn.contains("class=\"dot\""), "{drawn}");
+        }
     }
 
     #[test]

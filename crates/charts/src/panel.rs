@@ -300,7 +300,7 @@ impl<'a> Panel<'a> {
                     let name = Series::called(series, n);
                     match (m.live, one.style.is_points()) {
                         (true, true) => {
-                            svg.group(attributes! { "data-name": "{name}", "data-points": "{}"(path(&points)) }, draw);
+                            svg.group(attributes! { "data-name": "{name}", "data-points": "{}"(path(&points, false)) }, draw);
                         }
                         (true, false) => svg.group(attributes! { "data-name": "{name}" }, draw),
                         (false, _) => draw(svg),

@@ -16,7 +16,7 @@ pub struct Series<'a> {
     pub style: Style,
     /// Number of its points.
     pub count: usize,
-    /// The point of a number below `count`.
+    /// The point of a number below `count`; where it is no number, or beyond 1e300, the line has a gap.
     pub at: Box<dyn Fn(usize) -> (f64, f64) + 'a>,
     /// Thinning of the line.
     pub thinning: Thinning,
@@ -99,9 +99,11 @@ impl<'a> Series<'a> {
     /// The line through [`Series::points`], and a mark at each where the style has marks.
     pub(crate) fn draw(&self, svg: &mut Svg, points: &[(f64, f64)]) {
         if !self.style.is_points() {
-            svg.leaf("path", attributes! { "class": "{}"(self.style.class()), "d": "{}"(path(points)) });
+            // a mark shows a point without a neighbour
+            let dots = !matches!(self.style, Style::Marked(_));
+            svg.leaf("path", attributes! { "class": "{}"(self.style.class()), "d": "{}"(path(points, dots)) });
         }
-        points.iter().for_each(|point| self.mark(svg, *point));
+        points.iter().filter(|point| !is_gap(point)).for_each(|point| self.mark(svg, *point));
     }
 
     /// The name of one of several: what has none is another part of the one before it that looks like it.
@@ -134,46 +136,65 @@ impl<'a> Series<'a> {
         svg.leaf("path", attributes! { "class": "{class}", "d": "{shape}" });
     }
 
+    /// Its points, none where it has a gap.
+    fn all(&self) -> impl Iterator<Item = Option<(f64, f64)>> + '_ {
+        let is_drawn = |(x, y): &(f64, f64)| x.abs() < FARTHEST && y.abs() < FARTHEST;
+        (0..self.count).map(move |n| Some((self.at)(n)).filter(is_drawn))
+    }
+
     /// Lowest and highest x, lowest and highest y; `None` without points.
     pub fn ranges(&self) -> Option<[[f64; 2]; 2]> {
-        (0..self.count).map(&self.at).fold(None, |ranges, (x, y)| {
+        self.all().flatten().fold(None, |ranges, (x, y)| {
             let [[x0, x1], [y0, y1]] = ranges.unwrap_or([[x, x], [y, y]]);
             Some([[x0.min(x), x1.max(x)], [y0.min(y), y1.max(y)]])
         })
     }
 
-    /// The points to draw, in pixels.
+    /// The points to draw, in pixels, with a [`GAP`] where the line is not joined.
     pub(crate) fn points(&self, pixel: impl Fn((f64, f64)) -> (f64, f64)) -> Vec<(f64, f64)> {
-        let all = || (0..self.count).map(|n| pixel((self.at)(n)));
+        let all = || self.all().map(|point| point.map(&pixel));
         match self.thinning {
-            _ if self.count <= MOST_POINTS / 2 => all().collect(),
+            _ if self.count <= MOST_POINTS / 2 => strides(all(), 0.0),
             Thinning::Columns => extremes(all()),
             Thinning::Distance => {
                 let points = strides(all(), 1.0);
                 let every = points.len().div_ceil(MOST_POINTS - 1).max(1);
-                let end = points.last().copied().filter(|_| (points.len() - 1) % every != 0);
-                points.into_iter().step_by(every).chain(end).collect()
+                let last = points.len().saturating_sub(1);
+                let is_kept = |(n, point): &(usize, (f64, f64))| n % every == 0 || *n == last || is_gap(point);
+                points.into_iter().enumerate().filter(is_kept).map(|(_, point)| point).collect()
             }
         }
     }
 }
 
-/// Path data to tenths of a pixel.
-pub(crate) fn path(points: &[(f64, f64)]) -> String {
+/// Largest magnitude of a number that is drawn: differences of such are numbers, too.
+const FARTHEST: f64 = 1e300;
+
+/// A place at which a line is not joined.
+const GAP: (f64, f64) = (f64::NAN, f64::NAN);
+
+fn is_gap(point: &(f64, f64)) -> bool {
+    point.0.is_nan()
+}
+
+/// Path data to tenths of a pixel; a point without a neighbour is a dot where that is asked for, as line caps are round.
+pub(crate) fn path(points: &[(f64, f64)], dots: bool) -> String {
     let mut data = String::new();
-    for (i, (x, y)) in points.iter().enumerate() {
-        let _ = write!(data, "{}{x:.1} {y:.1}", if i == 0 { 'M' } else { 'L' });
-    }
-    if let [(x, y)] = points {
-        let _ = write!(data, "L{x:.1} {y:.1}"); // a lone point is a dot: its line caps are round
+    for joined in points.split(is_gap) {
+        for (i, (x, y)) in joined.iter().enumerate() {
+            let _ = write!(data, "{}{x:.1} {y:.1}", if i == 0 { 'M' } else { 'L' });
+        }
+        if let ([(x, y)], true) = (joined, dots) {
+            let _ = write!(data, "L{x:.1} {y:.1}");
+        }
     }
     data
 }
 
 type Numbered = (usize, (f64, f64));
 
-/// Lowest and highest point of every column of pixels in the order they come, and the two ends.
-fn extremes(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+/// Lowest and highest point of every column of pixels in the order they come, and the two ends; of gaps those that are wider than a column.
+fn extremes(points: impl Iterator<Item = Option<(f64, f64)>>) -> Vec<(f64, f64)> {
     let mut kept: Vec<(f64, f64)> = Vec::new();
     let keep = |kept: &mut Vec<(f64, f64)>, [low, high]: [Numbered; 2]| {
         let (first, second) = if low.0 <= high.0 { (low, high) } else { (high, low) };
@@ -183,36 +204,51 @@ fn extremes(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
         }
     };
     let mut column: Option<[Numbered; 2]> = None;
-    let mut last = None;
+    let (mut last, mut gap) = (None, false);
     for (n, point) in points.enumerate() {
-        if n == 0 {
+        let Some(point) = point else {
+            gap = true;
+            continue;
+        };
+        if last.is_none() {
             kept.push(point);
         }
-        last = Some(point);
         column = Some(match column {
             Some([low, high]) if low.1.0.floor() == point.0.floor() => {
                 [if point.1 < low.1.1 { (n, point) } else { low }, if point.1 > high.1.1 { (n, point) } else { high }]
             }
             full => {
                 full.into_iter().for_each(|ends| keep(&mut kept, ends));
+                kept.extend(last.filter(|_| gap).map(|_| GAP));
                 [(n, point); 2]
             }
         });
+        (last, gap) = (Some(point), false);
     }
     column.into_iter().for_each(|ends| keep(&mut kept, ends));
     kept.extend(last);
     kept
 }
 
-/// Points at least `reach` pixels from the one kept before, and the last.
-fn strides(points: impl Iterator<Item = (f64, f64)>, reach: f64) -> Vec<(f64, f64)> {
+/// Points at least `reach` pixels from the one kept before, and the last; of gaps those that are as wide.
+fn strides(points: impl Iterator<Item = Option<(f64, f64)>>, reach: f64) -> Vec<(f64, f64)> {
     let mut kept: Vec<(f64, f64)> = Vec::new();
-    let mut last = None;
+    let (mut last, mut gap) = (None, false);
     for point in points {
+        let Some(point) = point else {
+            gap = true;
+            continue;
+        };
         if kept.last().is_none_or(|before| (point.0 - before.0).hypot(point.1 - before.1) >= reach) {
+            if gap && !kept.is_empty() {
+                kept.extend(last.into_iter().chain([GAP]));
+            }
             kept.push(point);
+            last = None;
+        } else {
+            last = Some(point);
         }
-        last = Some(point);
+        gap = false;
     }
     kept.extend(last);
     kept
@@ -253,6 +289,30 @@ mod tests {
         assert_eq!(series(1, &at, Thinning::Columns).points(|p| p), [(0.0, 0.0)]);
         assert_eq!(series(0, &at, Thinning::Columns).points(|p| p), []);
         assert_eq!(series(500, &at, Thinning::Distance).points(|p| p).len(), 500);
+    }
+
+    /// What is no number is a gap, and nothing else of the line is lost.
+    #[test]
+    fn exact_a_line_has_a_gap_where_it_has_no_number() {
+        let of = |values: &[f64]| {
+            let at = |n: usize| (n as f64, values[n]);
+            let one = series(values.len(), &at, Thinning::Columns);
+            (path(&one.points(|p| p), true), one.ranges())
+        };
+        let (nan, up) = (f64::NAN, f64::INFINITY);
+        assert_eq!(of(&[1.0, nan, 3.0, 2.0]), ("M0.0 1.0L0.0 1.0M2.0 3.0L3.0 2.0".into(), Some([[0.0, 3.0], [1.0, 3.0]])));
+        assert_eq!(of(&[nan, 1.0, 2.0, up]).0, "M1.0 1.0L2.0 2.0");
+        assert_eq!(of(&[1e308, -1e308, nan]), (String::new(), None));
+        // a long one: gaps that can be seen stay, of those within a pixel none
+        for thinning in [Thinning::Columns, Thinning::Distance] {
+            let at = |n: usize| (n as f64 / 100.0, if (20_000..40_000).contains(&n) || n % 7 == 0 { f64::NAN } else { 50.0 });
+            let points = series(100_000, &at, thinning).points(|p| p);
+            assert_eq!(points.iter().filter(|p| is_gap(p)).count(), 1);
+            let at = points.iter().position(is_gap).unwrap();
+            assert!((points[at - 1].0 - 199.99).abs() < 1.1 && (points[at + 1].0 - 400.01).abs() < 0.02, "{points:?}");
+            assert!((points[points.len() - 1].0 - 999.99).abs() < 1e-9);
+        }
+        assert_eq!(path(&[(1.0, 2.0)], false), "M1.0 2.0");
         assert_eq!(series(0, &at, Thinning::Columns).ranges(), None);
     }
 }

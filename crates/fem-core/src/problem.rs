@@ -160,12 +160,17 @@ impl<'a> Problem<'a> {
         laws: &'m [Option<DMatrix<f64>>],
     ) -> Result<impl Iterator<Item = Result<DMatrix<f64>, Error>>, Error> {
         self.check(laws, self.form.strains, Some(self.form.strains))?;
+        let unfit = |(region, law): (usize, &Option<DMatrix<f64>>)| Some((region, not_symmetric(law.as_ref()?)?));
+        if let Some((region, found)) = laws.iter().enumerate().find_map(unfit) {
+            let needed = "a symmetric matrix of finite numbers".to_owned();
+            return Err(Error::Law { region, found: found.to_owned(), needed });
+        }
         let coefficients = |law| Coefficients::stiffness(self.form, law);
         let general = |g: &crate::ElementGeometry, law: &DMatrix<f64>| self.form.stiffness(&self.reference.value, g, law);
         Ok(self.element_matrices(laws, coefficients, Rectangle::stiffness, general))
     }
 
-    /// Stiffness matrix. `laws[region]` is the constitutive matrix (strains × strains), `None` where the region takes no part.
+    /// Stiffness matrix. `laws[region]` is the constitutive matrix (strains × strains), symmetric and positive definite, `None` where the region takes no part.
     ///
     /// # Errors
     /// [`Error::Law`] and [`Error::MissingLaw`] if the constants do not fit, [`Error::Map`] if the map does not; [`Error::Axis`] if a body of
@@ -417,4 +422,16 @@ impl<'a> Problem<'a> {
     pub fn at_point(&self, e: usize, xi: f64, eta: f64) -> [Vec<f64>; 3] {
         self.reference.at_point(self.mesh, e, xi, eta)
     }
+}
+
+/// Largest difference of two entries that should be the same, of the largest entry: constants from an inverse are symmetric to rounding.
+const SYMMETRIC: f64 = 1e-6;
+
+/// In words, the fault of a law that is no symmetric matrix of finite numbers.
+fn not_symmetric(law: &DMatrix<f64>) -> Option<&'static str> {
+    if law.iter().any(|entry| !entry.is_finite()) {
+        return Some("an entry is not finite");
+    }
+    let is_off = (law - law.transpose()).amax() > SYMMETRIC * law.amax();
+    is_off.then_some("a matrix that is not symmetric")
 }

@@ -187,7 +187,11 @@ pub enum Unrest {
 ///
 /// At rest both stand still: a model that starts from equilibrium has no other beginning. Two thermometers may differ all the same, by a constant. The
 /// follower's first finite value counts; that the two differ is said before that the driver moves.
+///
+/// # Panics
+/// If the series are not of one length.
 pub fn unrest(time: &[f64], driver: &[f64], follower: &[f64], rest: &Rest) -> Option<Unrest> {
+    assert_eq!((driver.len(), follower.len()), (time.len(), time.len()), "a value for each instant");
     let (start, first) = (*time.first()?, *driver.first()?);
     let early = time.iter().take_while(|t| **t - start <= rest.duration).count();
     let farthest = |values: &mut dyn Iterator<Item = f64>| {

@@ -1,6 +1,6 @@
 //! Lags of linear first-order systems behind their input: columns that stand for a slow response of unknown shape.
 
-/// Input minus the state of a first-order system of time constant `lag` \[s\] that follows it, from rest at the first instant.
+/// Input minus the state of a first-order system of time constant `lag` \[s\], 0 or more, that follows it, from rest at the first instant.
 ///
 /// The input is linear between the instants; the state is exact. Under a steady ramp the result settles at rate · lag.
 ///

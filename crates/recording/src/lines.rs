@@ -66,14 +66,22 @@ impl Line {
 /// The line of a series that noise is least likely to be; `None` where noise may be it. NaN is a value that is not used.
 ///
 /// `white` is the series whitened, in which the line is sought; `values` is the series itself, which tells its amplitude.
+///
+/// # Panics
+/// If instants do not increase, or the series are not as long as they are.
 pub fn strongest(time: &[f64], values: &[f64], white: &[f64]) -> Option<Line> {
+    assert_eq!((values.len(), white.len()), (time.len(), time.len()), "a value for each instant");
     let spectrum = Spectrum::new(time, white)?;
     let bin = spectrum.line()?;
     fitted(time, values, finer(time, white, bin as f64 * spectrum.step, spectrum.step))
 }
 
 /// Whether a series has a line of a period \[s\], or of a small multiple of it. NaN is a value that is not used.
+///
+/// # Panics
+/// If instants do not increase, or the series is not as long as they are.
 pub fn has_line(time: &[f64], values: &[f64], period: f64) -> bool {
+    assert_eq!(values.len(), time.len(), "a value for each instant");
     // a course leaks into all of a spectrum, its differences hardly do
     let differences: Vec<f64> = std::iter::once(f64::NAN).chain(values.windows(2).map(|pair| pair[1] - pair[0])).collect();
     let Some(spectrum) = Spectrum::new(time, &differences) else { return false };
@@ -113,6 +121,7 @@ impl Spectrum {
         if time.len() < FEWEST_ROWS {
             return None;
         }
+        assert!(time.is_sorted_by(|a, b| a < b), "instants increase");
         let usual = median_interval(time)?;
         let slots: f64 = time.windows(2).map(|pair| ((pair[1] - pair[0]) / usual).round().max(1.0)).sum();
         // the mean interval of the lattice: the median one may be off by the clock's last digit

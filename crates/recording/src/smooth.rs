@@ -3,15 +3,18 @@
 use crate::Error;
 use crate::condition::span;
 use crate::corners::corners;
-use crate::series::{check_series, median_interval};
+use crate::series::{check_length, check_series, median_interval};
 use nalgebra::{Matrix3, Vector3};
 
 /// Degrees of freedom of the steps' Student distribution, here Cauchy's: a programme turns seldom, but then sharply.
 const FREEDOM: f64 = 1.0;
-/// Dimensions of a step: how large, and when within its interval.
-const RANK: f64 = 2.0;
+/// Dimensions of a step: how large, when within its interval, and over how long. With two a step at an end of the interval is followed as if by a slower chamber.
+const RANK: f64 = 3.0;
 /// Time constants that are tried, in usual intervals: from next to none on, each twice the one before.
 const LAGS: [f64; 9] = [0.35, 0.7, 1.4, 2.8, 5.6, 11.0, 22.0, 45.0, 90.0];
+/// ln of the ratio of two of them, and steps of a search between them: to a fiftieth.
+const TWICE: f64 = std::f64::consts::LN_2;
+const CLOSER: usize = 8;
 /// Rounds of reweighting at each of them, and then at the likeliest.
 const TRIED: usize = 12;
 const ROUNDS: usize = 25;
@@ -79,6 +82,7 @@ pub fn resolution(values: &[f64]) -> f64 {
 /// # Errors
 /// [`Error`] if instants do not increase, a value is infinite, or there are fewer than [`FEWEST_ROWS`].
 pub fn smoothed(time: &[f64], values: &[f64], digit: Option<f64>) -> Result<Smoothed, Error> {
+    check_length("values", values.len(), time.len())?;
     let is_there: Vec<bool> = values.iter().map(|value| !value.is_nan()).collect();
     let found = check_series(time, &is_there, &[("values", values)])?;
     if found < FEWEST_ROWS {
@@ -118,7 +122,8 @@ pub fn smoothed(time: &[f64], values: &[f64], digit: Option<f64>) -> Result<Smoo
     let searched =
         [search(&|series, _| Some(series.even())), search(&|series, lag| Some(series.with(cornered(&time, values, lag)?)))];
     let likeliest = searched.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0));
-    let (_, lag, mut found) = likeliest.unwrap_or_else(|| (f64::NAN, LAGS[0], behind(LAGS[0]).even()));
+    let likeliest = likeliest.unwrap_or_else(|| (f64::NAN, LAGS[0], behind(LAGS[0]).even()));
+    let (_, lag, mut found) = closer(&behind, likeliest);
     let series = behind(lag);
     (0..ROUNDS).for_each(|_| series.reweigh(&mut found));
     let filter = series.filter(&found);
@@ -128,6 +133,39 @@ pub fn smoothed(time: &[f64], values: &[f64], digit: Option<f64>) -> Result<Smoo
     let left = noise * (variances.iter().sum::<f64>() / variances.len() as f64).max(0.0).sqrt();
     let usual = crate::statistics::median(variances).unwrap_or(1.0).clamp(f64::MIN_POSITIVE, 1.0);
     Ok(Smoothed { values, noise, left, of: 1.0 / usual })
+}
+
+/// A likelier time constant near one of those that are tried, with deviance and estimates: golden section between its neighbours. A corner is followed within
+/// a few values, which tell the time constant far better than those lie apart.
+fn closer<'a>(behind: &impl Fn(f64) -> Readings<'a>, best: (f64, f64, Found)) -> (f64, f64, Found) {
+    let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
+    let at = |from: &Found, ln_lag: f64| {
+        let (series, mut found) = (behind(ln_lag.exp()), from.clone());
+        (0..TRIED).for_each(|_| series.reweigh(&mut found));
+        (series.deviance(&found), ln_lag.exp(), found)
+    };
+    let middle = best.1.ln();
+    let (mut low, mut high) = (middle - TWICE, middle + TWICE);
+    let mut ends = [high - golden * (high - low), low + golden * (high - low)].map(|ln_lag| at(&best.2, ln_lag));
+    let mut least = best;
+    for _ in 0..CLOSER {
+        for end in &ends {
+            if end.0 < least.0 {
+                least = end.clone();
+            }
+        }
+        let [left, right] = ends;
+        ends = if left.0 < right.0 {
+            high = right.1.ln();
+            let next = at(&left.2, high - golden * (high - low));
+            [next, left]
+        } else {
+            low = left.1.ln();
+            let next = at(&right.2, low + golden * (high - low));
+            [right, next]
+        };
+    }
+    least
 }
 
 /// A series to be smoothed behind a follower: its values, how the state goes on between them, and the least variance of their noise.
@@ -268,15 +306,16 @@ fn forward(dt: f64, lag: f64) -> Matrix {
     Matrix::new(1.0, dt - behind, 1.0 - forget, 0.0, 1.0, 0.0, 0.0, behind, forget)
 }
 
-/// Covariance of what steps of the slope, of unit intensity, add over an interval: at the two points of Gauss's rule, exact for cubics.
+/// Covariance of what steps of the slope, of unit intensity, add over an interval: at the three points of Gauss's rule, exact for quintics.
 fn wander(dt: f64, lag: f64) -> Matrix {
     let at = |share: f64| {
         let left = dt * share;
         let behind = lag * (1.0 - (-left / lag).exp());
         Vector::new(left - behind, 1.0, behind)
     };
-    let off = 0.5 / 3.0_f64.sqrt();
-    [0.5 - off, 0.5 + off].into_iter().map(|share| at(share) * at(share).transpose() * (dt / 2.0)).sum()
+    let off = 0.5 * 0.6_f64.sqrt();
+    let points = [(0.5 - off, 5.0), (0.5, 8.0), (0.5 + off, 5.0)];
+    points.into_iter().map(|(share, weight)| at(share) * at(share).transpose() * (dt * weight / 18.0)).sum()
 }
 
 /// Prediction of the state before a value, and the information in the value.
@@ -460,6 +499,25 @@ mod tests {
         // at the four corners, too
         for corner in [200, 400, 667, 933] {
             assert!(off[corner - 8..corner + 12].iter().all(|o| o.abs() < 0.03), "{:?}", &off[corner - 8..corner + 12]);
+        }
+    }
+
+    /// Wherever a corner lies between two rows, and whatever the time constant of the chamber is: what it leaves is no lag that a coil might have.
+    #[test]
+    fn corners_between_rows_are_followed_by_a_chamber_of_any_lag() {
+        let time: Vec<f64> = (0..800).map(|n| 60.0 * f64::from(n)).collect();
+        let corners = [(6000.0, 1.0), (12_000.0, -1.0), (24_015.0, -1.0), (30_045.0, 1.0), (36_030.0, 1.0), (42_000.0, -1.0)];
+        for lag in [45.0, 60.0, 85.0, 170.0_f64] {
+            // answer of a first-order system to a ramp
+            let behind = |t: f64| if t > 0.0 { t - lag * -(-t / lag).exp_m1() } else { 0.0 };
+            let course: Vec<f64> =
+                time.iter().map(|t| 20.0 + corners.iter().map(|(at, turn)| turn * behind(t - at) / 60.0).sum::<f64>()).collect();
+            let read: Vec<f64> = course.iter().map(|c| (100.0 * c).round() / 100.0).collect();
+            let smooth = smoothed(&time, &read, None).unwrap();
+            let off: Vec<f64> = smooth.values.iter().zip(&course).map(|(a, b)| a - b).collect();
+            let most = off.iter().fold(0.0_f64, |most, o| most.max(o.abs()));
+            // of a ramp of a kelvin for each row, read to a hundredth
+            assert!(most < 0.0125, "{lag}: {most}");
         }
     }
 

@@ -233,6 +233,23 @@ fn what_cannot_be_identified_is_refused() {
     assert!(matches!(run(&noise, &mask, &[], &backwards), Error::Parameter { name: "drift_time", .. }));
 }
 
+/// An offset is no noise, however large it is, and whether or not a column says so.
+#[test]
+fn a_series_may_have_any_offset() {
+    let (time, one) = (even(400, 30.0), [1.0; 400]);
+    let noise = walking(0.02, 400, 3);
+    let of = |offset: f64, columns: &[&[f64]]| {
+        let values: Vec<f64> = noise.iter().map(|value| value + offset).collect();
+        identify(&Series { time: &time, values: &values, mask: &[true; 400], columns }, &Bounds::new(30.0, &time)).expect("noise")
+    };
+    let told = of(0.0, &[&one]);
+    for offset in [0.0, -1e4, 1e6] {
+        let found = of(offset, &[]);
+        assert_eq!(found.terms, told.terms, "{offset}");
+        assert!((found.model.white / told.model.white - 1.0).abs() < 1e-4, "{offset}: {found:?}");
+    }
+}
+
 /// White noise of 1 with a walk, a row each second.
 fn walking(walk: f64, count: usize, seed: u64) -> Vec<f64> {
     simulate(&NoiseModel { walk, ..NoiseModel::white(1.0, 1.0) }, count, &mut Random::new(seed))

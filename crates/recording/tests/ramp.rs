@@ -532,6 +532,20 @@ fn what_a_record_does_not_hold_is_not_told() {
     };
     let told = none.respond().map(|_| ()).unwrap_err().to_string();
     assert!(matches!(none.respond(), Err(Absent::Noise(_))) && !told.contains("inf"), "{told}");
+    // a series that is too short is named
+    let (one, two) = (vec![20.0; 100], vec![20.0; 99]);
+    let input = Input {
+        time: &one,
+        values: &one,
+        mask: &[true; 100],
+        drive: &two,
+        reading: [0.1, 0.0],
+        seat: &one,
+        interval: 30.0,
+        averaging: 30.0,
+    };
+    let told = respond(&input).map(|_| ()).unwrap_err().to_string();
+    assert!(told.contains("`drive` has 99 values where there are 100 instants"), "{told}");
     // a ramp from the first row to the last is an offset
     for reading in [0.0, 0.02] {
         let ramp = Record::of(&UNIT, &[(0.0, -40.0), (12_000.0, 60.0)], &noise(), reading, 1).respond().unwrap();

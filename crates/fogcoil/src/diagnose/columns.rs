@@ -6,7 +6,7 @@ use mechanisms::{Gyro, RATE as RATE_CHANNEL, SPOOL as SPOOL_CHANNEL, thermometer
 use recording::check::Unit;
 
 use super::as_drawn::{AsDrawn, TOLERATED, as_well, spread};
-use super::jumped;
+use super::jumped::{self, FOLLOWS};
 use super::loose::Loose;
 use crate::input::{CHAMBER, RATE, SPOOL};
 use crate::prepare::Record;
@@ -37,7 +37,9 @@ pub(super) fn warning(gyro: &Gyro, number: usize, record: &Record, answered: Opt
         ];
         for (columns, chamber, thermometer) in exchanged {
             let would = spread(thermometer, &thermometer_under(gyro.library(), time, chamber)?, 1.0);
-            if SUSPECT * would < left && as_well(would, answered(SPOOL_CHANNEL)) {
+            // what the model hardly follows with them exchanged is not exchanged
+            let follows = would < FOLLOWS * spread(thermometer, &vec![0.0; time.len()], 1.0);
+            if SUSPECT * would < left && follows && as_well(would, answered(SPOOL_CHANNEL)) {
                 let [left, would] = [left, would].map(|k| significant(k, 2));
                 let text = format!(
                     "{columns} seem to be exchanged: the model leaves {left} K rms of the thermometer as it stands, {would} K with \

@@ -17,7 +17,9 @@ use crate::table::significant;
 const WHOLE: [f64; 2] = [0.75, 1.25];
 const EXPLAINS: f64 = 0.5;
 /// Largest part of the spool's own course that is left without the jumps.
-const FOLLOWS: f64 = 0.3;
+pub(super) const FOLLOWS: f64 = 0.3;
+/// Part of a jump up to which the answer of the spool to it is watched where the readings are not the air's behind it: later these differ by more than the jump.
+const WATCHED: f64 = 0.5;
 
 /// Jumps that the spool leaves out whole, and what is left of it without them \[K\], rms. `responses` are those of the spool to each jump; `left` is what the
 /// model leaves of it, with white `noise`, and its `own` course \[K\], rms; `slopes` are what a standard deviation of each of the model's constants changes there.
@@ -50,6 +52,12 @@ fn missing(left: &[f64], [noise, own]: [f64; 2], slopes: &[Vec<f64>], responses:
     // a thermometer that follows nothing does not tell; one that follows the rest does
     let told = whole.contains(&true) && without <= (1.0 - EXPLAINS) * as_read && would < FOLLOWS * own;
     told.then_some((whole, would))
+}
+
+/// What is left of the spool before the largest part of a jump would have reached it, none later; `response` is that of the spool to the jump.
+fn watched(left: &[f64], response: &[f64], jump: &Jump) -> Vec<f64> {
+    let end = response.iter().position(|answer| answer.abs() > WATCHED * jump.by.abs()).unwrap_or(left.len());
+    left.iter().enumerate().map(|(n, left)| if n < end { *left } else { f64::NAN }).collect()
 }
 
 /// The warning of the largest jump that the spool does not follow, if there is one: in the record of this `number` in `gyro`, the design as it is, which
@@ -85,10 +93,17 @@ pub(super) fn warning(
     let slopes = (0..middle.len()).map(slope).collect::<Result<Vec<_>, _>>()?;
     let left: Vec<f64> = spool.iter().zip(predicted).map(|(read, predicted)| read - predicted).collect();
     let own = spread(spool, &vec![0.0; spool.len()], 1.0);
-    let told = missing(&left, [noise, own], &slopes, &responses).filter(|(_, would)| as_well(*would, answered));
-    let told = told.into_iter().flat_map(|(whole, _)| jumps.iter().zip(whole).filter(|(_, whole)| *whole));
-    let mut told = told.map(|(jump, _)| jump);
-    Ok(told.next().map(|jump| {
+    let is_no_mistake = |(_, would): &(Vec<bool>, f64)| as_well(*would, answered);
+    let told = missing(&left, [noise, own], &slopes, &responses).filter(is_no_mistake);
+    let mut told =
+        told.into_iter().flat_map(|(whole, _)| jumps.iter().zip(whole).filter(|(_, whole)| *whole)).map(|(jump, _)| jump);
+    // a sensor that fell off reads anything later
+    let fell = |(jump, response): &(&Jump, &Vec<f64>)| {
+        let response = std::slice::from_ref(*response);
+        missing(&watched(&left, &response[0], jump), [noise, own], &slopes, response).is_some_and(|found| is_no_mistake(&found))
+    };
+    let told = told.next().or_else(|| jumps.iter().zip(&responses).find(fell).map(|(jump, _)| jump));
+    Ok(told.map(|jump| {
         let text = format!(
             "{CHAMBER} jumps by {} K at {} s, and {SPOOL} goes on as if it had not: its sensor seems to have moved, or its channel",
             significant(jump.by, 2),
@@ -129,6 +144,15 @@ mod tests {
         // half a jump is something else, and so is one that explains little
         let half: Vec<f64> = sound.iter().zip(&jumped).map(|(a, b)| (a + b) / 2.0).collect();
         assert_eq!(told(&left(&half)), None);
+        // a sensor that fell off and then stands still, while the air goes on: its jump is told by the first that follows
+        let fallen: Vec<f64> = jumped.iter().enumerate().map(|(n, c)| if n < 320 { *c } else { jumped[320] }).collect();
+        let off: Vec<f64> =
+            lag(&time, &sound).iter().zip(lag(&time, &fallen)).enumerate().map(|(n, (a, b))| a - b + noise(n)).collect();
+        let jump = Jump { row: 320, by: -0.7, is_behind_gap: false };
+        assert_eq!(missing(&off, [0.006, 10.0], std::slice::from_ref(&slope), &response), None);
+        let seen = watched(&off, &response[0], &jump);
+        assert!(seen.iter().filter(|left| left.is_finite()).count() > 330);
+        assert!(missing(&seen, [0.006, 10.0], std::slice::from_ref(&slope), &response).is_some());
         let tilted: Vec<f64> = left(&sound).iter().zip(&time).map(|(r, t)| r + t / 10_000.0).collect();
         assert_eq!(told(&tilted), None);
     }

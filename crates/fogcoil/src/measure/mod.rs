@@ -83,7 +83,9 @@ pub fn measure(case: &RecordCase) -> Result<Measurement, InputError> {
     notes.extend(severe.map(|finding| Remark::of_finding(&finding.kind).warning(finding.to_string()).at(file)));
     let (drive, response) = response(case);
     let analysis = Analysis::new(case);
-    notes.extend(analysis.notes.iter().filter(|note| note.remark == Remark::Line).map(|note| note.clone().at(file)));
+    // of what a check says besides, that which may make a figure void
+    let tells = |note: &&Note| matches!(note.remark, Remark::Line | Remark::SpoolFirst | Remark::ChamberJump);
+    notes.extend(analysis.notes.iter().filter(tells).map(|note| note.clone().at(file)));
     let noise = noise::of(analysis.noise.as_ref());
     // u/(K/s) to u/(K/min)
     let per_minute = |of: fn(&Response) -> &Result<Estimate, Absent>| told(&response, of, 1.0 / S_PER_MIN);

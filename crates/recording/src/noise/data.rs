@@ -18,7 +18,8 @@ pub struct Series<'a> {
     pub values: &'a [f64],
     /// Rows that are used; of others no value is read.
     pub mask: &'a [bool],
-    /// Terms besides noise that the series may hold, each in an unknown amount: an offset, a trend, the columns of a Jacobian.
+    /// Terms besides noise that the series may hold, each in an unknown amount: an offset, a trend, the columns of a Jacobian. [`super::identify`] lets it
+    /// have an offset in any case, the other functions only where it is among these.
     pub columns: &'a [&'a [f64]],
 }
 
@@ -38,11 +39,21 @@ pub(super) struct Data {
 
 impl Data {
     pub(super) fn new(series: &Series) -> Result<Self, Error> {
-        let Series { time, values, mask, columns } = *series;
+        Self::beside(series, series.columns)
+    }
+
+    /// The same with an offset, unless the columns make one.
+    pub(super) fn with_offset(series: &Series) -> Result<Self, Error> {
+        let one = vec![1.0; series.time.len()];
+        Self::beside(series, &[series.columns, &[&one]].concat())
+    }
+
+    fn beside(series: &Series, columns: &[&[f64]]) -> Result<Self, Error> {
+        let Series { time, values, mask, .. } = *series;
         let names: Vec<String> = (0..columns.len()).map(|i| format!("column {i}")).collect();
         let named = names.iter().map(String::as_str).zip(columns.iter().copied());
         let used = check_series(time, mask, &std::iter::once(("values", values)).chain(named).collect::<Vec<_>>())?;
-        let needed = FEWEST_ROWS + columns.len();
+        let needed = FEWEST_ROWS + series.columns.len();
         let Some(interval) = series::median_interval(time).filter(|_| used >= needed) else {
             return Err(Error::TooFew { found: used, needed });
         };
@@ -54,11 +65,11 @@ impl Data {
                 starts.iter().map(|&first| series[first..first + group].iter().sum::<f64>() / group as f64).collect()
             };
             let ends = starts.iter().map(|&first| time[first + group - 1]).collect();
-            Self::of(ends, vec![true; starts.len()], group, interval, means, series)
+            Self::of(ends, vec![true; starts.len()], group, interval, means, values, columns)
         } else {
             // masked rows hold 0, so that no arithmetic meets what they held
             let clean = |series: &[f64]| series.iter().zip(mask).map(|(value, used)| if *used { *value } else { 0.0 }).collect();
-            Self::of(time.to_vec(), mask.to_vec(), 1, interval, clean, series)
+            Self::of(time.to_vec(), mask.to_vec(), 1, interval, clean, values, columns)
         };
         data.numbers = independent(&data.columns);
         data.columns = data.numbers.iter().map(|&number| std::mem::take(&mut data.columns[number])).collect();
@@ -71,10 +82,11 @@ impl Data {
         group: usize,
         interval: f64,
         take: impl Fn(&[f64]) -> Vec<f64>,
-        series: &Series,
+        values: &[f64],
+        columns: &[&[f64]],
     ) -> Self {
-        let columns = series.columns.iter().map(|column| take(column)).collect();
-        Self { time, mask, values: take(series.values), columns, numbers: Vec::new(), group, interval }
+        let columns = columns.iter().map(|column| take(column)).collect();
+        Self { time, mask, values: take(values), columns, numbers: Vec::new(), group, interval }
     }
 
     /// The model of a row of these, given that of a row of the original: white noise falls with the root of the group.

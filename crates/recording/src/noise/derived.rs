@@ -47,8 +47,11 @@ impl NoiseEstimate {
 
 impl NoiseModel {
     /// Averaging time \[s\] between the ends given at which the Allan deviation is least, and that deviation \[u\]; `None` where the deviation still
-    /// falls at the longer end: it has no floor there. `interval` is that of the rows \[s\].
+    /// falls at the longer end: it has no floor there, nor between ends that are not 0 < shortest ≤ longest < ∞. `interval` is that of the rows \[s\].
     pub fn floor(&self, [shortest, longest]: [f64; 2], interval: f64) -> Option<(f64, f64)> {
+        if !(shortest > 0.0 && shortest <= longest && longest.is_finite()) {
+            return None;
+        }
         let steps = (PER_OCTAVE * (longest / shortest).log2()).ceil().max(1.0);
         let tau = |n: usize| shortest * (longest / shortest).powf(n as f64 / steps);
         let deviation = |n: usize| self.allan_deviation(tau(n), interval);
@@ -79,6 +82,10 @@ mod tests {
     #[test]
     fn what_falls_to_the_longer_end_has_no_floor() {
         assert_eq!(NoiseModel::white(1.0, 1.0).floor([2.0, 16.0], 1.0), None);
+        let drifts = NoiseModel { walk: 1.0, ..NoiseModel::white(1.0, 1.0) };
+        for ends in [[0.0, 10.0], [-1.0, 10.0], [1.0, f64::INFINITY], [16.0, 2.0], [f64::NAN, 2.0], [1.0, f64::NAN]] {
+            assert_eq!(drifts.floor(ends, 1.0), None, "{ends:?}");
+        }
         // what rises from the shorter end on has it there
         let walk = NoiseModel { walk: 1.0, ..NoiseModel::white(1e-9, 1.0) };
         assert_eq!(walk.floor([2.0, 16.0], 1.0).map(|(at, _)| at), Some(2.0));

@@ -157,6 +157,8 @@ const EDGE: f64 = 0.7;
 
 /// Finds the noise model that makes a series most likely, with as many terms as the BIC allows.
 ///
+/// An offset is no noise: the series may have any, whether or not one is among its columns.
+///
 /// The likelihood is exact: the innovations of [`Whitener`]. The scale is eliminated in closed form, the ratios of the terms and the
 /// correlation time are searched from a grid by Nelder and Mead.
 ///
@@ -164,7 +166,7 @@ const EDGE: f64 = 0.7;
 /// [`Error::Length`], [`Error::Time`], [`Error::Value`] for bad series; [`Error::Parameter`] for bad bounds; [`Error::TooFew`];
 /// [`Error::NoNoise`] if nothing but rounding is left beside the columns.
 pub fn identify(series: &Series, bounds: &Bounds) -> Result<NoiseEstimate, Error> {
-    let data = Data::new(series)?;
+    let data = Data::with_offset(series)?;
     check_bounds(bounds)?;
     let problem = Problem { data: &data, bounds };
     let mut candidates: Vec<(Candidate, Vec<f64>)> = Vec::new();

@@ -45,6 +45,7 @@ pub use input::Input;
 
 use crate::Error;
 use crate::noise::NoiseEstimate;
+use crate::series::check_length;
 use crate::smooth::{resolution, smoothed};
 use branches::Course;
 use design::{Design, Weights};
@@ -90,11 +91,11 @@ const LEAST_NOISE: f64 = 1e-6;
 /// Three thousand rows take some seconds; average longer records first ([`crate::condition`]).
 ///
 /// # Errors
-/// [`Absent`] where the temperature stands still, the interval is no time, or nothing can be told.
-///
-/// # Panics
-/// If the series are not of one length.
+/// [`Absent`] where the temperature stands still, the interval is no time, the series are not of one length, or nothing can be told.
 pub fn respond(input: &Input) -> Result<Response, Absent> {
+    let lengths =
+        [("values", input.values.len()), ("mask", input.mask.len()), ("drive", input.drive.len()), ("seat", input.seat.len())];
+    lengths.iter().try_for_each(|(name, found)| check_length(name, *found, input.time.len()))?;
     if !(input.interval.is_finite() && input.interval > 0.0) {
         return Err(Error::Parameter { name: "interval", value: input.interval, range: "finite and above 0 s" }.into());
     }
