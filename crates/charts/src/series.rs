@@ -219,7 +219,8 @@ fn extremes(points: impl Iterator<Item = Option<(f64, f64)>>) -> Vec<(f64, f64)>
             }
             full => {
                 full.into_iter().for_each(|ends| keep(&mut kept, ends));
-                kept.extend(last.filter(|_| gap).map(|_| GAP));
+                let is_wide = |before: &(f64, f64)| gap && (point.0 - before.0).abs() >= 1.0;
+                kept.extend(last.filter(is_wide).map(|_| GAP));
                 [(n, point); 2]
             }
         });
@@ -232,25 +233,24 @@ fn extremes(points: impl Iterator<Item = Option<(f64, f64)>>) -> Vec<(f64, f64)>
 
 /// Points at least `reach` pixels from the one kept before, and the last; of gaps those that are as wide.
 fn strides(points: impl Iterator<Item = Option<(f64, f64)>>, reach: f64) -> Vec<(f64, f64)> {
+    let far = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).hypot(a.1 - b.1) >= reach;
     let mut kept: Vec<(f64, f64)> = Vec::new();
-    let (mut last, mut gap) = (None, false);
+    // the point before, and whether it was kept
+    let (mut last, mut gap): (Option<((f64, f64), bool)>, bool) = (None, false);
     for point in points {
         let Some(point) = point else {
             gap = true;
             continue;
         };
-        if kept.last().is_none_or(|before| (point.0 - before.0).hypot(point.1 - before.1) >= reach) {
-            if gap && !kept.is_empty() {
-                kept.extend(last.into_iter().chain([GAP]));
-            }
-            kept.push(point);
-            last = None;
-        } else {
-            last = Some(point);
+        let behind_gap = last.filter(|(before, _)| gap && far(*before, point));
+        if let Some((before, is_kept)) = behind_gap {
+            kept.extend((!is_kept).then_some(before).into_iter().chain([GAP]));
         }
-        gap = false;
+        let is_kept = behind_gap.is_some() || kept.last().is_none_or(|before| far(*before, point));
+        kept.extend(is_kept.then_some(point));
+        (last, gap) = (Some((point, is_kept)), false);
     }
-    kept.extend(last);
+    kept.extend(last.filter(|(_, is_kept)| !is_kept).map(|(point, _)| point));
     kept
 }
 
@@ -289,6 +289,7 @@ mod tests {
         assert_eq!(series(1, &at, Thinning::Columns).points(|p| p), [(0.0, 0.0)]);
         assert_eq!(series(0, &at, Thinning::Columns).points(|p| p), []);
         assert_eq!(series(500, &at, Thinning::Distance).points(|p| p).len(), 500);
+        assert_eq!(series(0, &at, Thinning::Columns).ranges(), None);
     }
 
     /// What is no number is a gap, and nothing else of the line is lost.
@@ -313,6 +314,5 @@ mod tests {
             assert!((points[points.len() - 1].0 - 999.99).abs() < 1e-9);
         }
         assert_eq!(path(&[(1.0, 2.0)], false), "M1.0 2.0");
-        assert_eq!(series(0, &at, Thinning::Columns).ranges(), None);
     }
 }

@@ -363,6 +363,26 @@ fn a_bias_at_rest_is_told_beside_a_slow_part() {
     assert!((span.value - 20.0).abs() < 2.576 * span.sd && span.sd < 0.1, "{span:?}");
 }
 
+/// What follows the body, half an hour behind the chamber, turns when the body does.
+#[test]
+fn hysteresis_of_a_slow_body_is_told() {
+    let corners = [-20.0, 20.0, 60.0, 20.0, -20.0, 20.0];
+    let at = |(n, t): (usize, &f64)| [(10_800.0 * n as f64, *t), (10_800.0 * n as f64 + 8400.0, *t)];
+    let programme: Vec<(f64, f64)> = corners.iter().enumerate().flat_map(at).collect();
+    let mut record = Record::of(&UNIT, &programme, &NoiseModel::white(0.003, 60.0), 0.01, 1);
+    let behind = lagging(&record.time, &record.temperature, 1800.0);
+    let seat: Vec<f64> = record.temperature.iter().zip(behind).map(|(t, behind)| t - behind).collect();
+    let mut side = 0.0;
+    let mut before = seat[0];
+    for (value, seat) in record.values.iter_mut().zip(&seat) {
+        side = (side + (seat - before) / 16.0_f64).clamp(-0.5, 0.5);
+        before = *seat;
+        *value += 0.1 * side;
+    }
+    let found = record.respond_over(&seat).unwrap().hysteresis.unwrap();
+    assert!((found.value - 0.1).abs() < 2.576 * found.sd && found.sd < 0.01, "{found:?}");
+}
+
 #[test]
 #[ignore = "a minute"]
 fn hysteresis_needs_rests_at_one_temperature() {

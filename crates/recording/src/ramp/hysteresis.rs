@@ -20,9 +20,9 @@ pub(super) fn hysteresis(model: &Model) -> Result<Estimate, Absent> {
     model.sum(&vec![(model.design.columns.len() - 1, 1.0)])
 }
 
-/// A design with the side from which a temperature was reached.
-pub(super) fn beside(design: &Design, course: &Course) -> Design {
-    design.with(course.side.clone())
+/// A design with the `side` from which a temperature was reached.
+pub(super) fn beside(design: &Design, side: &[f64]) -> Design {
+    design.with(side.to_vec())
 }
 
 /// Whether rests lie at one temperature after either direction, `drive` being what moves the channel and `interval` that of the rows \[s\].

@@ -16,7 +16,7 @@
 //!
 //! A **hysteresis** is sought beside all lags up to a third of the longest rest, in one set: a response that hardly begins in a short ramp is seen at the rest
 //! behind it, where what is left of it depends on the side from which the rest was reached. What longer ones change of it counts as an error; if that is more than noise
-//! explains, none is told.
+//! explains, none is told. It begins where what drives turns, or where the seat does: both are fitted, and weighed by their likelihoods.
 //!
 //! What a set misses of the response, a bias over temperature takes up: as much of the largest effect is an error of the **span**, which the one set of all lags
 //! tells where that leaves less.
@@ -180,21 +180,31 @@ pub fn respond(input: &Input) -> Result<Response, Absent> {
         // a response that hardly begins in a ramp is still seen at the rest behind it
         let watch = if matches!(slowest, Slowest::Beyond) { ramps } else { watch }.at_rest();
         let sets = sets_of(watch.settling)?;
-        let within = |lags: &[f64], size: Option<f64>| {
-            let design = hysteresis::beside(&design(lags), &course);
-            let known = size.map_or(Vec::new(), |size| design.apart(size));
-            Model::within(design, observed, &known)
+        let by = |side: &[f64]| -> Result<(Estimate, f64), Absent> {
+            let within = |lags: &[f64], size: Option<f64>| {
+                let design = hysteresis::beside(&design(lags), side);
+                let known = size.map_or(Vec::new(), |size| design.apart(size));
+                Model::within(design, observed, &known)
+            };
+            let models: Vec<Model> = sets.iter().map(|lags| within(lags, None)).collect::<Result<_, _>>()?;
+            let size = size(&models).ok_or(Absent::Indistinct)?;
+            let lags = lags::finer(&sets);
+            let model = within(&lags, Some(size))?;
+            let found = hysteresis::hysteresis(&model)?;
+            let other = hysteresis::hysteresis(&within(&lags::slower(&lags), Some(size))?)?;
+            // what has not settled at a rest depends on the side from which it was reached
+            if found.differs(other) {
+                return Err(Absent::Unsettled(watch));
+            }
+            Ok((Estimate { sd: found.sd.hypot(other.value - found.value), ..found }, model.noise.log_likelihood))
         };
-        let models: Vec<Model> = sets.iter().map(|lags| within(lags, None)).collect::<Result<_, _>>()?;
-        let size = size(&models).ok_or(Absent::Indistinct)?;
-        let lags = lags::finer(&sets);
-        let of = |lags: &[f64]| hysteresis::hysteresis(&within(lags, Some(size))?);
-        let [found, other] = [of(&lags)?, of(&lags::slower(&lags))?];
-        // what has not settled at a rest depends on the side from which it was reached
-        if found.differs(other) {
-            return Err(Absent::Unsettled(watch));
-        }
-        Ok(Estimate { sd: found.sd.hypot(other.value - found.value), ..found })
+        // where the body turns, or where what drives it does: as the record has it
+        let of_seat = seated.then(|| Course::new(input.time, input.seat, threshold).side);
+        let all = std::iter::once(&course.side).chain(&of_seat).map(|side| by(side)).collect::<Result<Vec<_>, _>>()?;
+        let most = all.iter().map(|(_, ln)| *ln).fold(f64::NEG_INFINITY, f64::max);
+        let sum: f64 = all.iter().map(|(_, ln)| (ln - most).exp()).sum();
+        let each: Vec<_> = all.iter().map(|(found, ln)| ((ln - most).exp() / sum, found.value, found.sd)).collect();
+        Ok(Estimate::mixed(&each))
     };
     // what a set misses of the response, a bias over temperature takes up
     let missed = |models: &[Model], share: f64| peak(models, input).map_or(0.0, |(peak, _)| share * peak.value);
