@@ -15,9 +15,10 @@ const LAGS: [f64; 9] = [0.35, 0.7, 1.4, 2.8, 5.6, 11.0, 22.0, 45.0, 90.0];
 /// ln of the ratio of two of them, and steps of a search between them: to a fiftieth.
 const TWICE: f64 = std::f64::consts::LN_2;
 const CLOSER: usize = 8;
-/// Rounds of reweighting at each of them, and then at the likeliest.
-const TRIED: usize = 12;
-const ROUNDS: usize = 25;
+/// Rounds of reweighting at each of them, at those between, and then at the likeliest: with far fewer a corner in noise stays wide, as behind a slow chamber.
+const TRIED: usize = 25;
+const BETWEEN: usize = 12;
+const ROUNDS: usize = 60;
 /// ln of a step's variance over the noise's that is searched, at first and about a known one, and how closely it is found.
 const RATIOS: (f64, f64) = (-25.0, 20.0);
 const NEAR: f64 = 1.5;
@@ -30,6 +31,9 @@ const ROUNDING: f64 = 1e-7;
 const CORNER: f64 = 1e-4;
 /// Weight of a step that does not turn at all.
 const STRAIGHT: f64 = (FREEDOM + RANK) / FREEDOM;
+/// Between these a product goes on, far from what no number holds.
+const LEAST: f64 = 1e-200;
+const MOST: f64 = 1e200;
 /// Fewest rows that can be smoothed.
 pub const FEWEST_ROWS: usize = 8;
 
@@ -141,7 +145,7 @@ fn closer<'a>(behind: &impl Fn(f64) -> Readings<'a>, best: (f64, f64, Found)) ->
     let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
     let at = |from: &Found, ln_lag: f64| {
         let (series, mut found) = (behind(ln_lag.exp()), from.clone());
-        (0..TRIED).for_each(|_| series.reweigh(&mut found));
+        (0..BETWEEN).for_each(|_| series.reweigh(&mut found));
         (series.deviance(&found), ln_lag.exp(), found)
     };
     let middle = best.1.ln();
@@ -235,6 +239,7 @@ impl Readings<'_> {
         let (mut x, mut p) = (Vector::new(first, 0.0, 0.0), UNKNOWN * Matrix::identity());
         let mut there = 0;
         let mut said = Said { squares: 0.0, log_det: 0.0, count: 0 };
+        let mut product = 1.0;
         for (n, value) in self.values.iter().enumerate() {
             if n > 0 {
                 let (f, q) = &self.moves[n - 1];
@@ -248,7 +253,12 @@ impl Readings<'_> {
             // the first three say where it starts
             if is_there && there > 3 {
                 said.squares += surprise * surprise / spread;
-                said.log_det += spread.ln();
+                // a logarithm of many at once
+                product *= spread;
+                if !(LEAST..MOST).contains(&product) {
+                    said.log_det += product.ln();
+                    product = 1.0;
+                }
                 said.count += 1;
             }
             met(Predicted { mean: x, covariance: p, surprise, spread });
@@ -258,6 +268,7 @@ impl Readings<'_> {
             let kept = without_course(&gain);
             p = kept * p * kept.transpose() + gain * gain.transpose();
         }
+        said.log_det += product.ln();
         said
     }
 
