@@ -160,7 +160,7 @@ impl<'a> Series<'a> {
                 let points = strides(all(), 1.0);
                 let every = points.len().div_ceil(MOST_POINTS - 1).max(1);
                 let last = points.len().saturating_sub(1);
-                let is_kept = |(n, point): &(usize, (f64, f64))| n % every == 0 || *n == last || is_gap(point);
+                let is_kept = |(n, point): &(usize, (f64, f64))| n.is_multiple_of(every) || *n == last || is_gap(point);
                 points.into_iter().enumerate().filter(is_kept).map(|(_, point)| point).collect()
             }
         }
@@ -236,7 +236,7 @@ fn strides(points: impl Iterator<Item = Option<(f64, f64)>>, reach: f64) -> Vec<
     let far = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).hypot(a.1 - b.1) >= reach;
     let mut kept: Vec<(f64, f64)> = Vec::new();
     // the point before, and whether it was kept
-    let (mut last, mut gap): (Option<((f64, f64), bool)>, bool) = (None, false);
+    let (mut last, mut gap) = (None::<((f64, f64), bool)>, false);
     for point in points {
         let Some(point) = point else {
             gap = true;
@@ -306,7 +306,8 @@ mod tests {
         assert_eq!(of(&[1e308, -1e308, nan]), (String::new(), None));
         // a long one: gaps that can be seen stay, of those within a pixel none
         for thinning in [Thinning::Columns, Thinning::Distance] {
-            let at = |n: usize| (n as f64 / 100.0, if (20_000..40_000).contains(&n) || n % 7 == 0 { f64::NAN } else { 50.0 });
+            let at =
+                |n: usize| (n as f64 / 100.0, if (20_000..40_000).contains(&n) || n.is_multiple_of(7) { f64::NAN } else { 50.0 });
             let points = series(100_000, &at, thinning).points(|p| p);
             assert_eq!(points.iter().filter(|p| is_gap(p)).count(), 1);
             let at = points.iter().position(is_gap).unwrap();

@@ -40,7 +40,7 @@ pub fn read_passed(path: &Path) -> Result<Passed, InputError> {
         let field = |place: Option<usize>| place.map_or("", |place| rows.field(place));
         if rows.field(judged) != "pass" {
             let why = [field(unit), field(reason)];
-            first_not = first_not.or_else(|| why.iter().all(|text| !text.is_empty()).then(|| why.map(|text| shown(text))));
+            first_not = first_not.or_else(|| why.iter().all(|text| !text.is_empty()).then(|| why.map(shown)));
             continue;
         }
         let is_void = |id: &str| Remark::ALL.iter().any(|remark| remark.id() == id && remark.voids());
