@@ -54,6 +54,9 @@ pub fn is_coil(path: &Path) -> bool {
     open(path).is_ok_and(|source| source.is(&COIL))
 }
 
+/// Ends of names of files that loggers write.
+const TABLES: [&str; 6] = ["csv", "tsv", "txt", "dat", "xlsx", "parquet"];
+
 pub(super) fn open(path: &Path) -> Result<Source, InputError> {
     let fault = |problem: String, remedy: &str| InputError::whole(path, problem, remedy);
     let unreadable = |error: std::io::Error| fault(format!("cannot be read: {error}"), "check the path and its permissions");
@@ -65,6 +68,11 @@ pub(super) fn open(path: &Path) -> Result<Source, InputError> {
     std::fs::File::open(path).map_err(unreadable)?.take(LARGEST + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes.len() as u64 > LARGEST {
         return Err(fault(format!("is larger than {LARGEST} bytes"), "give a case file (*.ron), not a recording"));
+    }
+    let is_table = path.extension().is_some_and(|end| TABLES.iter().any(|table| end.eq_ignore_ascii_case(table)));
+    if is_table && !matches!(bytes.iter().find(|b| !b.is_ascii_whitespace()), Some(b'(' | b'/')) {
+        let problem = "is a table, where a case file (*.ron) is wanted";
+        return Err(fault(problem.into(), "the coil's file comes first: fogcoil COMMAND COIL.ron, and recordings behind it"));
     }
     let text = String::from_utf8(bytes).map_err(|error| {
         let (valid, bytes) = (error.utf8_error().valid_up_to(), error.as_bytes());

@@ -121,10 +121,21 @@ impl Source {
     pub(crate) fn fault(&self, field: &str, problem: impl Into<String>, remedy: impl Into<String>) -> InputError {
         let map = FieldMap::new(&self.text);
         let (found, rest) = map.find(field);
-        let line = found.map_or(1, |f| 1 + self.text[..map.span(f).start].matches('\n').count());
+        let problem = problem.into();
+        let begins = found.map_or(0, |f| self.named_in(map.span(f), &problem));
+        let line = 1 + self.text[..begins].matches('\n').count();
         let path = map.path(found);
         let field = if rest.is_empty() { path } else { join(&path, rest) };
         InputError { line: Some(line), field: Some(field), ..InputError::whole(&self.path, problem, remedy) }
+    }
+}
+
+impl Source {
+    /// Beginning of what a problem names first in quotes, where that stands in a field, as the key of a map does; else of the field.
+    fn named_in(&self, field: std::ops::Range<usize>, problem: &str) -> usize {
+        let named = problem.split('"').nth(1).filter(|name| !name.is_empty());
+        let within = named.and_then(|name| self.text[field.clone()].find(&format!("\"{name}\"")));
+        field.start + within.unwrap_or(0)
     }
 }
 

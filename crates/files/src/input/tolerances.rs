@@ -330,6 +330,11 @@ mod tests {
         for (entry, expected) in cases {
             assert!(with(entry).contains(expected), "{entry}: {}", with(entry));
         }
+        // in its own line, not that of the group
+        let at = TEMPLATE.find("\"coil.density_kg_per_m3\": Relative(0.03)").expect("an entry");
+        let line = 1 + TEMPLATE[..at].matches('\n').count();
+        let told = with("\"coil.dens\": Relative(0.03)");
+        assert!(told.contains(&format!(":{line}: tolerances")), "{told}");
         assert!(
             read(&TEMPLATE.replace("Absolute(0.02)", "Relative(0.02)"))
                 .err()

@@ -85,7 +85,7 @@ fn units(batch: &Batch) -> Markup {
                     }
                     td { (judged.word()) }
                     td {
-                        (nice(&[row.warned(), judged.reasons().or_else(|| row.problem.clone())].into_iter().flatten().collect::<Vec<_>>().join("; ")))
+                        (nice(&[row.told_besides(), judged.reasons().or_else(|| row.problem.clone())].into_iter().flatten().collect::<Vec<_>>().join("; ")))
                     }
                     td {
                         (shown(row.number("sensitivity"), 4))

@@ -3,6 +3,8 @@
 use files::Remark;
 use serde_json::{Value, json};
 
+use crate::table::significant;
+
 /// Numbers of a unit, in the order of the table; the first eight have intervals, as `fogcoil measure` tells them.
 pub(super) const NUMBERS: [&str; 16] = [
     "sensitivity",
@@ -68,6 +70,8 @@ pub struct Row {
     pub parameters: Vec<(String, [f64; 3])>,
     /// Shape of a difference that is unknown: the law that was composed and accepted, or a description.
     pub(super) shape: Option<String>,
+    /// Clocks that the records show to be late or early, in words.
+    pub(super) clocks: Vec<String>,
     /// Constants of the design as the records leave them.
     pub constants: Vec<Constant>,
     /// Reason why there is no diagnosis.
@@ -121,6 +125,7 @@ impl Row {
             first: text(&first["id"]),
             parameters: parameters(&diagnosis["parameters"]),
             shape: shape(diagnosis),
+            clocks: clocks(&diagnosis["sensors"]),
             constants: constants.filter_map(constant).collect(),
             problem: text(&finding["problem"]),
             missing: pairs(&measured["not_known"]),
@@ -191,6 +196,12 @@ impl Row {
             which.map_or_else(|| id.clone(), |which| format!("{id} ({which})"))
         };
         (!self.warnings.is_empty()).then(|| format!("warned of {}", self.warnings.iter().map(of).collect::<Vec<_>>().join(", ")))
+    }
+
+    /// What is told of its records beside its verdict: warnings, and clocks.
+    pub(super) fn told_besides(&self) -> Option<String> {
+        let all: Vec<String> = self.warned().into_iter().chain(self.clocks.iter().cloned()).collect();
+        (!all.is_empty()).then(|| all.join("; "))
     }
 
     /// Whether far more than noise is left of a record that was held out.
@@ -285,6 +296,22 @@ fn warnings(diagnosis: &Value) -> Vec<String> {
     warnings
 }
 
+/// Of a diagnosis' instruments the delays that are no less than three of their deviations, unless they may make up for something else.
+fn clocks(sensors: &Value) -> Vec<String> {
+    /// Deviations of the half of a 90 % interval.
+    const HALF: f64 = 1.645;
+    const FAR: f64 = 3.0;
+    let told = |sensor: &Value| {
+        let (column, value) = (sensor["key"].as_str()?.strip_suffix(".delay_s")?, sensor["value"].as_f64()?);
+        let [low, high] = ends(&sensor["ci90"])?;
+        let is_sure = sensor["qualified"] != true && value.abs() > FAR * (high - low) / 2.0 / HALF;
+        let (how, [low, high]) = if value > 0.0 { ("late", [low, high]) } else { ("early", [-high, -low]) };
+        let [value, low, high] = [value.abs(), low, high].map(|seconds| significant(seconds, 3));
+        is_sure.then(|| format!("{column} is read {value} s {how} ({low} to {high})"))
+    };
+    sensors.as_array().into_iter().flatten().filter_map(told).collect()
+}
+
 fn pairs(value: &Value) -> Vec<(String, String)> {
     let of = |(name, text): (&String, &Value)| Some((name.clone(), text.as_str()?.to_owned()));
     value.as_object().into_iter().flatten().filter_map(of).collect()
@@ -362,8 +389,17 @@ mod tests {
                 "mechanisms": [{"id": "tail-asymmetry", "probability": 0.93}, {"id": "debond", "probability": 0.2}, {"id": "air-path", "probability": 0.83}],
                 "notes": ["warning: a.csv: exchanged", "note: a.csv: late", "warning: b.csv: exchanged", "warning: stuck"],
                 "note_ids": ["exchanged-columns", "gap", "exchanged-columns", "stuck"],
+                "sensors": [
+                    {"key": "chamber_c.delay_s", "value": 89.5, "ci90": [88.6, 90.5], "sigmas": 9.0, "qualified": false},
+                    {"key": "rate_deg_per_h.delay_s", "value": -3.0, "ci90": [-6.0, 0.0], "sigmas": -0.6, "qualified": false},
+                    {"key": "spool_c.lag_s", "value": 9.0, "ci90": [8.0, 10.0], "sigmas": 2.0, "qualified": false},
+                ],
             },
         }));
+        assert_eq!(
+            row.told_besides().unwrap(),
+            "warned of exchanged-columns, stuck; chamber_c is read 89.5 s late (88.6 to 90.5)"
+        );
         assert_eq!(row.open(), "tail-asymmetry and air-path or debond");
         assert_eq!(row.warned().unwrap(), "warned of exchanged-columns, stuck");
     }

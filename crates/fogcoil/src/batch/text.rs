@@ -26,7 +26,7 @@ pub fn text(batch: &Batch) -> String {
             doubt.shown(row).unwrap_or_else(|| "-".into()),
             judged.word().to_owned(),
             [
-                row.warned(),
+                row.told_besides(),
                 Some(row.open()).filter(|open| !(open.is_empty() || reasons.as_ref().is_some_and(|told| told.contains(open)))),
                 reasons.clone(),
             ]

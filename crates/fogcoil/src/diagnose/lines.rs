@@ -61,7 +61,7 @@ mod tests {
         let (without, notes) = taken_off([&case].into_iter());
         let [note] = &notes[..] else { panic!("{notes:?}") };
         assert!(
-            note.text.contains("a period of 436.997 s") && note.text.contains("taken off the rate") && note.is_warning(),
+            note.text.contains("a period of 436.999 s") && note.text.contains("taken off the rate") && note.is_warning(),
             "{note}"
         );
         // amplitude and phase of the line are known to a noise over the root of half the rows

@@ -167,6 +167,7 @@ fn a_file_that_is_no_case_file() {
     folder.write("large.ron", vec![b' '; (1 << 20) + 1]);
     folder.write("deep.ron", "(".repeat(100_000));
     folder.write("lists.ron", format!("(name: {}", "[".repeat(100_000)));
+    folder.write("record.csv", b"Datum;T (\xb0C)\n1;2\n");
     folder.write("cut.ron", &CELL[..CELL.len() / 2]);
     folder.write("twice.ron", format!("{CELL}{CELL}"));
     std::fs::create_dir(folder.path("folder.ron")).unwrap();
@@ -175,6 +176,7 @@ fn a_file_that_is_no_case_file() {
             ("empty.ron", "empty.ron: is empty"),
             ("blank.ron", "blank.ron: is empty"),
             ("latin.ron", "latin.ron:2: is not UTF-8"),
+            ("record.csv", "record.csv: is a table, where a case file (*.ron) is wanted; the coil's file comes first"),
             ("large.ron", "large.ron: is larger than"),
             ("deep.ron", "deep.ron:1: the file is cut short, or a bracket is never closed"),
             ("lists.ron", "lists.ron:1: name"),
