@@ -53,15 +53,18 @@ mod tests {
 
     #[test]
     fn more_readings_than_rows_leave_less_noise_in_the_rows() {
-        let noise = |n: usize| ((n * 7919 % 1000) as f64 / 1000.0 - 0.5) * 0.2;
+        let noise = |n: usize, by: usize| ((n * by % 1000) as f64 / 1000.0 - 0.5) * 0.2;
         let course = |t: f64| 20.0 + 0.005 * (t - 6000.0).clamp(0.0, 8000.0);
         let off = |every: usize| {
             let time: Vec<f64> = (0..2000).step_by(every).map(|n| 10.0 * n as f64).collect();
-            let readings: Vec<f64> = time.iter().map(|t| course(*t) + noise((t / 10.0) as usize)).collect();
             let rows: Vec<f64> = (0..320).map(|n| 60.0 * f64::from(n)).collect();
-            let chamber = Chamber::recorded(&time, &readings, None).at(&rows);
-            let squares = chamber.values.iter().zip(&rows).map(|(value, t)| (value - course(*t)).powi(2));
-            (squares.sum::<f64>() / 320.0).sqrt()
+            let squares = |by: usize| {
+                let readings: Vec<f64> = time.iter().map(|t| course(*t) + noise((t / 10.0) as usize, by)).collect();
+                let chamber = Chamber::recorded(&time, &readings, None).at(&rows);
+                chamber.values.iter().zip(&rows).map(|(value, t)| (value - course(*t)).powi(2)).sum::<f64>()
+            };
+            // one noise may happen to leave more or less
+            ([7919, 7907, 6619, 9371, 8689, 5281, 4723, 3539].map(squares).iter().sum::<f64>() / (8.0 * 320.0)).sqrt()
         };
         let [all, few] = [off(1), off(6)];
         assert!(all < 0.7 * few && all < 0.02, "{all} K from all readings, {few} K from every sixth");

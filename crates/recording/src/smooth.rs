@@ -15,6 +15,8 @@ const LAGS: [f64; 9] = [0.35, 0.7, 1.4, 2.8, 5.6, 11.0, 22.0, 45.0, 90.0];
 /// ln of the ratio of two of them, and steps of a search between them: to a fiftieth.
 const TWICE: f64 = std::f64::consts::LN_2;
 const CLOSER: usize = 8;
+/// Time constants below which it is searched between them.
+const QUICK: f64 = 2.0;
 /// Rounds of reweighting at each of them, at those between, and then at the likeliest: with far fewer a corner in noise stays wide, as behind a slow chamber.
 const TRIED: usize = 25;
 const BETWEEN: usize = 12;
@@ -127,7 +129,7 @@ pub fn smoothed(time: &[f64], values: &[f64], digit: Option<f64>) -> Result<Smoo
         [search(&|series, _| Some(series.even())), search(&|series, lag| Some(series.with(cornered(&time, values, lag)?)))];
     let likeliest = searched.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0));
     let likeliest = likeliest.unwrap_or_else(|| (f64::NAN, LAGS[0], behind(LAGS[0]).even()));
-    let (_, lag, mut found) = closer(&behind, likeliest);
+    let (_, lag, mut found) = if likeliest.1 < QUICK { closer(&behind, likeliest) } else { likeliest };
     let series = behind(lag);
     (0..ROUNDS).for_each(|_| series.reweigh(&mut found));
     let filter = series.filter(&found);
@@ -140,7 +142,8 @@ pub fn smoothed(time: &[f64], values: &[f64], digit: Option<f64>) -> Result<Smoo
 }
 
 /// A likelier time constant near one of those that are tried, with deviance and estimates: golden section between its neighbours. A corner is followed within
-/// a few values, which tell the time constant far better than those lie apart.
+/// a few values, which tell the time constant far better than those lie apart. Behind a slower chamber many values say the shape of a corner themselves, and
+/// that of one time constant would be held too strictly: a controller and a thermometer have one each.
 fn closer<'a>(behind: &impl Fn(f64) -> Readings<'a>, best: (f64, f64, Found)) -> (f64, f64, Found) {
     let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
     let at = |from: &Found, ln_lag: f64| {
