@@ -69,12 +69,12 @@ pub(super) fn open(path: &Path) -> Result<Source, InputError> {
     if bytes.len() as u64 > LARGEST {
         return Err(fault(format!("is larger than {LARGEST} bytes"), "give a case file (*.ron), not a recording"));
     }
-    let is_table = path.extension().is_some_and(|end| TABLES.iter().any(|table| end.eq_ignore_ascii_case(table)));
-    if is_table && !matches!(bytes.iter().find(|b| !b.is_ascii_whitespace()), Some(b'(' | b'/')) {
-        let problem = "is a table, where a case file (*.ron) is wanted";
-        return Err(fault(problem.into(), "the coil's file comes first: fogcoil COMMAND COIL.ron, and recordings behind it"));
-    }
+    let is_table = || path.extension().is_some_and(|end| TABLES.iter().any(|table| end.eq_ignore_ascii_case(table)));
     let text = String::from_utf8(bytes).map_err(|error| {
+        if is_table() {
+            let remedy = "the coil's file comes first: fogcoil COMMAND COIL.ron, and recordings behind it";
+            return fault("looks like a table, not a RON file".into(), remedy);
+        }
         let (valid, bytes) = (error.utf8_error().valid_up_to(), error.as_bytes());
         let line = 1 + bytes[..valid].iter().filter(|&&b| b == b'\n').count();
         InputError { line: Some(line), ..fault("is not UTF-8 text".into(), "save the file as UTF-8") }

@@ -176,7 +176,7 @@ fn a_file_that_is_no_case_file() {
             ("empty.ron", "empty.ron: is empty"),
             ("blank.ron", "blank.ron: is empty"),
             ("latin.ron", "latin.ron:2: is not UTF-8"),
-            ("record.csv", "record.csv: is a table, where a case file (*.ron) is wanted; the coil's file comes first"),
+            ("record.csv", "record.csv: looks like a table, not a RON file; the coil's file comes first"),
             ("large.ron", "large.ron: is larger than"),
             ("deep.ron", "deep.ron:1: the file is cut short, or a bracket is never closed"),
             ("lists.ron", "lists.ron:1: name"),
