@@ -93,14 +93,14 @@ pub(super) fn warning(
     let slopes = (0..middle.len()).map(slope).collect::<Result<Vec<_>, _>>()?;
     let left: Vec<f64> = spool.iter().zip(predicted).map(|(read, predicted)| read - predicted).collect();
     let own = spread(spool, &vec![0.0; spool.len()], 1.0);
-    let is_no_mistake = |(_, would): &(Vec<bool>, f64)| as_well(*would, answered);
-    let told = missing(&left, [noise, own], &slopes, &responses).filter(is_no_mistake);
+    let is_mistake = |(_, would): &(Vec<bool>, f64)| as_well(*would, answered);
+    let told = missing(&left, [noise, own], &slopes, &responses).filter(is_mistake);
     let mut told =
         told.into_iter().flat_map(|(whole, _)| jumps.iter().zip(whole).filter(|(_, whole)| *whole)).map(|(jump, _)| jump);
     // a sensor that fell off reads anything later
     let fell = |(jump, response): &(&Jump, &Vec<f64>)| {
         let response = std::slice::from_ref(*response);
-        missing(&watched(&left, &response[0], jump), [noise, own], &slopes, response).is_some_and(|found| is_no_mistake(&found))
+        missing(&watched(&left, &response[0], jump), [noise, own], &slopes, response).is_some_and(|found| is_mistake(&found))
     };
     let told = told.next().or_else(|| jumps.iter().zip(&responses).find(fell).map(|(jump, _)| jump));
     Ok(told.map(|jump| {
